@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// The checkerboard and what is measured on it.
+
+#ifndef TILTCAL_BOARD_H
+#define TILTCAL_BOARD_H
+
+#include <string>
+#include <vector>
+
+namespace tiltcal
+{
+
+/// Counts squares, as the command line does: 12 x 9 squares have 11 x 8 inner corners.
+/// Board frame (left-handed, as POV-Ray's): origin at the first inner corner, x along
+/// the columns, y up the rows, z into the board; inner corner (i, j) is (i s, -j s, 0).
+struct Board
+{
+	int columns = 0, rows = 0;
+	double square_mm = 0;
+
+	int InnerColumns() const { return columns - 1; }
+	int InnerRows() const { return rows - 1; }
+	int CornerCount() const { return InnerColumns() * InnerRows(); }
+	double X(double column) const { return column * square_mm; }
+	double Y(double row) const { return -row * square_mm; }
+};
+
+/// "12x9". Throws UsageError.
+Board ParseBoard(const std::string& text, double square_mm);
+
+/// An inner corner in a picture, pixels.
+struct Corner
+{
+	int column = 0, row = 0;
+	double x = 0, y = 0;
+	double sigma = 0;   ///< standard deviation of x and of y
+};
+
+/// One edge between neighbouring inner corners, measured in its middle portion.
+struct Edge
+{
+	int column = 0, row = 0;     ///< its first corner
+	bool along_columns = true;   ///< to (column + 1, row), else to (column, row + 1)
+	double board_column = 0, board_row = 0; ///< where on the board it was measured, in squares
+	double x = 0, y = 0;         ///< the same place in the picture, pixels
+	double nx = 0, ny = 0;       ///< unit normal in the picture (y down), dark to bright
+	double slope = 0;            ///< the edge's direction is (ny, -nx) + slope (nx, ny)
+	double blur = 0;             ///< diameter of the blur disc, pixels
+	double blur_sigma = 0;
+	double offset_sigma = 0, slope_sigma = 0;
+	double low = 0, high = 0;    ///< linear light on both sides
+};
+
+/// Everything measured in one photograph. Corners row by row: index row * InnerColumns + column.
+struct Photo
+{
+	std::string file;
+	int width = 0, height = 0;
+	std::vector<Corner> corners;
+	std::vector<Edge> edges;
+	int edges_dropped = 0;       ///< blurred into their neighbours, or not fitted
+	double saturated_share = 0;  ///< edges whose bright side is clipped
+};
+
+}
+
+#endif

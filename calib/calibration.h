@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// What a calibration takes and what it finds. Lengths mm, angles degrees, pictures
+// pixels; frames of camera.h. Sigmas are one standard deviation, from the covariance of
+// the fit rescaled by its residuals: they hold the noise, not what the model leaves out.
+
+#ifndef TILTCAL_CALIBRATION_H
+#define TILTCAL_CALIBRATION_H
+
+#include "board.h"
+#include "camera.h"
+
+#include <string>
+#include <vector>
+
+namespace tiltcal
+{
+
+/// An estimate and its standard deviation.
+struct Estimate
+{
+	double value = 0, sigma = 0;
+};
+
+/// The photographs of one setting of the lens. State 0 is the untilted one.
+struct State
+{
+	std::string name;
+	bool tilted = false;
+	std::vector<Photo> photos;
+};
+
+struct Task
+{
+	Board board;
+	double pitch_mm = 0;           ///< distance of pixel centres on the sensor
+	int width = 0, height = 0;
+	std::vector<State> states;     ///< untilted first
+};
+
+/// Where the boards and the sensor are. Indices: state, then photo.
+struct Geometry
+{
+	double w_px = 0, w_px_sigma = 0;
+	bool has_distortion = false;
+	Distortion distortion{}, distortion_sigma{};
+	std::vector<bool> principal_point_fixed;
+	std::vector<Point> principal_point, principal_point_sigma;
+	std::vector<std::vector<Pose>> poses, pose_sigmas;
+	std::vector<std::vector<double>> photo_rms;    ///< reprojection, px: sqrt(mean(dx^2 + dy^2))
+	double rms = 0;
+};
+
+/// The lens in one state.
+struct StateLens
+{
+	bool converged = true;
+	Vec3<double> q{ 0, 0, 0 }, q_sigma{ 0, 0, 0 };   ///< plane of focus, 1/mm
+	Estimate lens_tilt, focal_plane_tilt, tilt_direction, focus_distance, focal_length;
+	double rms_blur = 0;     ///< px, measured against predicted
+	int edges = 0;
+};
+
+/// One model's answer.
+struct Solution
+{
+	std::string model;
+	Estimate w_mm, aperture_diameter, focus_distance, focal_length, psf_floor_px;
+	std::vector<StateLens> states;
+	double rms_blur = 0;
+	std::string failure;     ///< why there is no answer; empty when there is one
+};
+
+struct Calibration
+{
+	Task task;
+	Geometry geometry;           ///< the best one: with distortion where it is significant
+	Geometry pinhole;            ///< without distortion, for a renderer that has none
+	Solution solution;           ///< of the model asked for, with `geometry`
+	Solution render;             ///< the same model with `pinhole`: the numbers of the .inc
+	Solution paper;              ///< the paper's model, always
+	Geometry paper_geometry;     ///< poses of the paper's stage 1
+};
+
+}
+
+#endif

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// Fits position, slope and blur disc of one straight edge to its pixels.
+
+#ifndef TILTCAL_EDGE_FIT_H
+#define TILTCAL_EDGE_FIT_H
+
+#include <vector>
+
+namespace tiltcal
+{
+
+/// One pixel near an edge, in the edge's own axes (pixels).
+struct EdgeSample
+{
+	double x;      ///< signed distance from the nominal edge, dark side negative
+	double s;      ///< position along the edge, 0 at its middle
+	double value;  ///< linear light
+};
+
+struct EdgeFit
+{
+	bool valid = false;
+	double low = 0, high = 0;           ///< plateaus at the edge's middle, linear light
+	double shade_x = 0, shade_s = 0;    ///< relative change of brightness per pixel (vignetting)
+	double offset = 0, slope = 0;       ///< the edge lies at x = offset + slope s
+	double radius = 0;                  ///< of the blur disc
+	double offset_sigma = 0, slope_sigma = 0, radius_sigma = 0;
+	double rms = 0;                     ///< residual, linear light
+};
+
+/// Model: value = (1 + shade_x x + shade_s s) (low + (high - low) E(x - offset - slope s)),
+/// E from PixelEdgeResponse with boxes |nx|, |ny| and `radius`. Levenberg-Marquardt with
+/// Huber weights; sigmas from the covariance rescaled by the residuals. Radii below
+/// about 0.3 px are not told from 0: the pixel hides them, and their sigma says so.
+/// `start_radius` in pixels. Not valid: fewer than 40 samples, no contrast, no convergence.
+EdgeFit FitEdge(const std::vector<EdgeSample>& samples, double nx, double ny, double start_radius);
+
+}
+
+#endif

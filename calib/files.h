@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// File names in, whole files out.
+
+#ifndef TILTCAL_FILES_H
+#define TILTCAL_FILES_H
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace tiltcal
+{
+
+/// Every file that the patterns match (* ? [..] and plain names), sorted so that
+/// numbers count as numbers (photo-2 before photo-10), without duplicates.
+/// Throws FileError when a pattern matches nothing; `option` is named in the message.
+std::vector<std::string> ExpandGlobs(const std::vector<std::string>& patterns, const std::string& option);
+
+/// Creates the folder (and its parents) and proves that a file can be written in it.
+/// Throws FileError. Called before the work starts, not after it.
+void PrepareFolder(const std::string& folder);
+
+/// Lets `write` produce the file under a temporary name beside `file` (same suffix)
+/// and renames it, so that an interrupted run leaves the old file or none.
+/// `write` returns false, or throws Error, when it cannot. Throws FileError.
+void WriteAtomically(const std::string& file, const std::function<bool(const std::string& temporary)>& write);
+
+/// WriteAtomically for text.
+void WriteText(const std::string& file, const std::string& text);
+
+/// File name without folder and suffix.
+std::string Stem(const std::string& file);
+
+/// File name without folder.
+std::string BaseName(const std::string& file);
+
+/// folder/name
+std::string Join(const std::string& folder, const std::string& name);
+
+}
+
+#endif

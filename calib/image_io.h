@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// Pictures in linear light. Pixel centres are at integers, (0, 0) is top left.
+
+#ifndef TILTCAL_IMAGE_IO_H
+#define TILTCAL_IMAGE_IO_H
+
+#include "transfer.h"
+
+#include <opencv2/core.hpp>
+
+#include <string>
+
+namespace tiltcal
+{
+
+/// Reads PNG, JPEG, TIFF (8, 16 bit integer or float) or OpenEXR into linear light:
+/// CV_32FC1 or CV_32FC3 (blue first), 1 = the integer formats' full scale.
+/// The transfer curve applies to the integer formats; floating point is linear.
+/// Alpha is dropped; EXIF orientation is ignored (the sensor's own orientation counts).
+/// Throws FileError: missing, empty, not a picture, truncated, NaN or infinite pixels.
+cv::Mat ReadLinear(const std::string& file, const Transfer& transfer);
+
+/// Luminance (Rec. 709 / sRGB primaries) as CV_32FC1.
+cv::Mat Luminance(const cv::Mat& linear);
+
+/// 8-bit sRGB picture of `linear` times `gain`, CV_8UC1 or CV_8UC3.
+cv::Mat ToDisplay(const cv::Mat& linear, double gain = 1);
+
+/// Writes an 8-bit picture as PNG, atomically. Throws FileError.
+void WritePng(const std::string& file, const cv::Mat& image);
+
+}
+
+#endif

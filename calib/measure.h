@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#ifndef TILTCAL_MEASURE_H
+#define TILTCAL_MEASURE_H
+
+#include "board.h"
+#include "detect.h"
+#include "transfer.h"
+
+#include <opencv2/core.hpp>
+
+#include <string>
+#include <vector>
+
+namespace tiltcal
+{
+
+/// Reads a photograph, finds its corners and measures the blur of its edges.
+/// Throws FileError, Refused. `grey`, when given, receives the linear picture.
+Photo MeasurePhoto(const std::string& file, const Board& board, const Transfer& transfer,
+	const DetectOptions& options, cv::Mat* grey = nullptr);
+
+/// Blur width of every edge between neighbouring inner corners, in linear light.
+/// Only pixels nearer to their edge than to anything that the blur of another edge
+/// reaches are used; edges that have none are left out and counted in edges_dropped.
+/// Refines photo.corners to the intersections of the fitted edges.
+void MeasureEdges(const cv::Mat& grey, const Board& board, Photo& photo);
+
+}
+
+#endif

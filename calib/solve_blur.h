@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// From measured blur widths to the lens: two models of the same photographs.
+
+#ifndef TILTCAL_SOLVE_BLUR_H
+#define TILTCAL_SOLVE_BLUR_H
+
+#include "calibration.h"
+
+namespace tiltcal
+{
+
+/// The exact model. Every measured edge at P = (x, y, z) in the camera frame has the
+/// blur disc (optics.h, SignedBlurWidth; DESIGN.md section 2)
+///   b = w d |1 - q.P| / z,   seen as sqrt(b^2 + floor^2),
+/// with d and the lens's own blur `floor` common, q = (0, 0, 1/U) untilted and q free in
+/// each tilted state (the lens turns about a pivot, so U changes with the tilt). w and the
+/// poses come from `geometry`. No sign is assumed: every side of the plane of focus and
+/// every tilt direction is started from, and two answers of the same quality are a
+/// refusal. Robust loss; measured sigmas plus a common model error.
+/// Throws Refused when the photographs do not determine d, U or a state's q.
+Solution SolvePlane(const Task& task, const Geometry& geometry);
+
+/// The paper's model, printed equations (3), (4) and (1): stage 1 over all untilted
+/// photographs for R, T, U, w, d; stage 2 one unknown tan(theta_F) per tilted state.
+/// Features are the grid corners, their blur the mean of their edges' blur; no
+/// distortion, no floor, principal point at the picture's centre, plain least squares.
+/// Poses of tilted photographs are those of the untilted photograph of the same number
+/// when the counts agree, as in the paper, otherwise `start`'s.
+/// `start` gives the first guess; `found` receives stage 1's camera and poses.
+/// Not an exception but Solution::failure says why it failed: it is also run for comparison.
+Solution SolvePaper(const Task& task, const Geometry& start, Geometry& found);
+
+/// One untilted blur observation for ScanUntilted.
+struct DepthBlur
+{
+	double z, blur;   ///< mm, px
+};
+
+struct UntiltedGuess
+{
+	double inverse_focus = 0, diameter = 0, cost = 0;   ///< 1/mm, mm
+};
+
+/// First guesses for 1/U and d of b = w d |1/U - 1/z|: local minima of the mean capped
+/// absolute residual over 1/U, best first.
+std::vector<UntiltedGuess> ScanUntilted(const std::vector<DepthBlur>& observations, double w_px);
+
+}
+
+#endif

@@ -1,0 +1,76 @@
+# Acquires, patches, configures and makes POV-Ray, each step only where needed,
+# and lays out STAGE/bin, STAGE/share and STAGE/etc so that it runs from there.
+#
+#   cmake -DWORK=... -DSTAGE=... -DPATCH_DIR=... -DFLAGS=... [-DSOURCE=...] [-DCCACHE=...]
+#         [-DCXX=...] [-DCC=...] -P BuildPovray.cmake
+
+include("${CMAKE_CURRENT_LIST_DIR}/PovrayPin.cmake")
+set(src "${WORK}/src")
+
+execute_process(
+	COMMAND "${CMAKE_COMMAND}" "-DDESTINATION=${WORK}" "-DSOURCE=${SOURCE}" -P "${CMAKE_CURRENT_LIST_DIR}/AcquirePovray.cmake"
+	COMMAND_ERROR_IS_FATAL ANY)
+execute_process(
+	COMMAND "${CMAKE_COMMAND}" "-DARCHIVE=${WORK}/${POVRAY_ARCHIVE}" "-DWORK=${WORK}" "-DPATCH_DIR=${PATCH_DIR}"
+		-P "${CMAKE_CURRENT_LIST_DIR}/PatchPovray.cmake"
+	COMMAND_ERROR_IS_FATAL ANY)
+
+# What configure's answer depends on: the flags and the list of source files.
+file(GLOB ours RELATIVE "${PATCH_DIR}" "${PATCH_DIR}/tilt_lens/*.h" "${PATCH_DIR}/tilt_lens/*.cpp")
+set(wanted "${FLAGS}|${CXX}|${CC}|${CCACHE}|${ours}")
+set(configured "")
+if(EXISTS "${WORK}/configured.txt")
+	file(READ "${WORK}/configured.txt" configured)
+endif()
+
+if(NOT configured STREQUAL wanted)
+	message(STATUS "POV-Ray: configuring (log in ${WORK}/configure.log)")
+	execute_process(COMMAND ./prebuild.sh WORKING_DIRECTORY "${src}/unix"
+		RESULT_VARIABLE result OUTPUT_FILE "${WORK}/prebuild.log" ERROR_FILE "${WORK}/prebuild.log")
+	if(NOT result EQUAL 0)
+		message(FATAL_ERROR "POV-Ray's prebuild.sh failed; see ${WORK}/prebuild.log")
+	endif()
+	# Optimisation flags are ours, not configure's: its -ffast-math may not be had in a
+	# program that promises to handle infinities, nor -march=native in one whose
+	# pictures are to be the same on every machine.
+	execute_process(
+		COMMAND ./configure "COMPILED_BY=the tilt-lens project" NON_REDISTRIBUTABLE_BUILD=yes
+			--without-libsdl --without-x --disable-optimiz --disable-optimiz-arch --disable-strip
+			--with-boost-thread=boost_thread
+			"LIBS=-lboost_system -lboost_thread" "CXXFLAGS=${FLAGS}" "CFLAGS=${FLAGS}"
+			"CXX=${CCACHE} ${CXX}" "CC=${CCACHE} ${CC}"
+		WORKING_DIRECTORY "${src}"
+		RESULT_VARIABLE result OUTPUT_FILE "${WORK}/configure.log" ERROR_FILE "${WORK}/configure.log")
+	if(NOT result EQUAL 0)
+		message(FATAL_ERROR "POV-Ray's configure failed; see ${WORK}/configure.log")
+	endif()
+	file(STRINGS "${WORK}/configure.log" missing REGEX "Unsupported image formats: +[a-z]")
+	if(missing)
+		message(FATAL_ERROR "POV-Ray would lack picture formats:${missing}. Run cmake/setup.sh and try again.")
+	endif()
+	file(WRITE "${WORK}/configured.txt" "${wanted}")
+endif()
+
+include(ProcessorCount)
+ProcessorCount(cores)
+message(STATUS "POV-Ray: making (the first time takes minutes; warnings of upstream's own go to ${WORK}/make.log)")
+# Upstream's compile lines are long and its warnings many: show the names only.
+execute_process(
+	COMMAND make -j${cores} --no-print-directory
+	COMMAND tee "${WORK}/make.log"
+	COMMAND awk "/^(make|mv |depbase|rm |ranlib)/ { next } match(\$0, /[a-z_0-9]+\\.cpp/) && / -c / { n++; if (n % 10 == 0) { printf \"   POV-Ray: %d files compiled\\n\", n; fflush() } }"
+	WORKING_DIRECTORY "${src}" RESULTS_VARIABLE results ERROR_FILE "${WORK}/make-errors.log")
+list(GET results 0 result)
+if(NOT result EQUAL 0)
+	execute_process(COMMAND grep -n -A6 -E "error|\\*\\*\\*" "${WORK}/make-errors.log")
+	message(FATAL_ERROR "Building POV-Ray failed; see ${WORK}/make.log and ${WORK}/make-errors.log")
+endif()
+
+set(share "${STAGE}/share/povray-3.7")
+set(etc "${STAGE}/etc/povray/3.7")
+file(MAKE_DIRECTORY "${STAGE}/bin" "${etc}" "${share}")
+file(COPY_FILE "${src}/unix/povray" "${STAGE}/bin/povray" ONLY_IF_DIFFERENT)
+file(COPY "${src}/distribution/include" "${src}/distribution/ini" DESTINATION "${share}")
+file(COPY_FILE "${PATCH_DIR}/config/povray.conf" "${etc}/povray.conf" ONLY_IF_DIFFERENT)
+file(COPY_FILE "${PATCH_DIR}/config/povray.ini" "${etc}/povray.ini" ONLY_IF_DIFFERENT)
+message(STATUS "POV-Ray: ${STAGE}/bin/povray is up to date")

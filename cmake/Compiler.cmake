@@ -1,0 +1,20 @@
+# Warnings, sanitizers and ccache for our own targets.
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM)
+	set(CMAKE_C_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
+	set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
+endif()
+
+add_library(tilt_lens_warnings INTERFACE)
+target_compile_options(tilt_lens_warnings INTERFACE -Wall -Wextra -Wshadow -Wnon-virtual-dtor)
+if(TILT_LENS_WERROR)
+	target_compile_options(tilt_lens_warnings INTERFACE -Werror)
+endif()
+
+set(TILT_LENS_SANITIZER_FLAGS "")
+if(TILT_LENS_SANITIZE)
+	set(TILT_LENS_SANITIZER_FLAGS -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+	add_compile_options(${TILT_LENS_SANITIZER_FLAGS})
+	add_link_options(${TILT_LENS_SANITIZER_FLAGS})
+endif()

@@ -1,0 +1,60 @@
+#!/bin/sh
+# Installs what building, testing and running need, on Debian and its relatives.
+# Run it as root or with sudo at hand, as often as you like: what is there already
+# is left alone. On other systems it lists what to install.
+
+set -eu
+
+packages="
+	ca-certificates cmake ninja-build g++ make patch autoconf automake
+	zlib1g-dev libpng-dev libjpeg-dev libtiff-dev libopenexr-dev
+	libboost-thread-dev libboost-date-time-dev libboost-system-dev
+	libceres-dev libeigen3-dev libopencv-dev libcli11-dev nlohmann-json3-dev
+	libspdlog-dev libfmt-dev libgtest-dev libgmock-dev libbenchmark-dev
+	gnuplot-nox povray povray-includes"
+# Wanted, but nothing fails without it.
+optional="ccache"
+
+if ! command -v apt-get > /dev/null 2>&1; then
+	cat >&2 <<'END'
+setup.sh knows apt only. Please install by your system's own names:
+  a C++17 compiler, cmake >= 3.25, ninja, make, patch, autoconf, automake
+  zlib, libpng, libjpeg, libtiff, OpenEXR 3, Boost (thread, date_time, system)
+  Ceres Solver 2.1, Eigen 3, OpenCV 4, CLI11, nlohmann-json, spdlog, fmt
+  GoogleTest, Google Benchmark, gnuplot
+  povray 3.7 (stock, the tests' oracle), ccache (optional)
+  Fedora: gcc-c++ cmake ninja-build patch autoconf automake zlib-devel libpng-devel libjpeg-turbo-devel
+          libtiff-devel openexr-devel boost-devel ceres-solver-devel eigen3-devel opencv-devel cli11-devel
+          json-devel spdlog-devel fmt-devel gtest-devel gmock-devel google-benchmark-devel gnuplot povray ccache
+  Arch:   base-devel cmake ninja zlib libpng libjpeg-turbo libtiff openexr boost ceres-solver eigen opencv
+          cli11 nlohmann-json spdlog fmt gtest benchmark gnuplot povray ccache
+  and the POV-Ray 3.7.0.10 source archive: cmake --preset release -DPOVRAY_SOURCE=/path/to/archive
+END
+	exit 1
+fi
+
+missing=""
+for package in $packages $optional; do
+	state=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2> /dev/null || true)
+	[ "$state" = installed ] || missing="$missing $package"
+done
+if [ -z "$missing" ]; then
+	echo "setup.sh: everything is installed."
+	exit 0
+fi
+
+as_root=""
+if [ "$(id -u)" -ne 0 ]; then
+	command -v sudo > /dev/null 2>&1 || {
+		echo "setup.sh: needs root (or sudo) to install:$missing" >&2
+		exit 1
+	}
+	as_root=sudo
+fi
+
+echo "setup.sh: installing$missing"
+export DEBIAN_FRONTEND=noninteractive
+$as_root apt-get -q update
+# shellcheck disable=SC2086 # one word per package
+$as_root env DEBIAN_FRONTEND=noninteractive apt-get -q install -y --no-install-recommends $missing
+echo "setup.sh: done."

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// The methods that tilt_lens adds to POV-Ray's Camera.
+
+// frame.h must always be the first POV file included (pulls in platform config)
+#include "backend/frame.h"
+#include "backend/math/vector.h"
+#include "backend/math/matrices.h"
+#include "backend/scene/camera.h"
+
+// this must be the last file included
+#include "base/povdebug.h"
+
+namespace pov
+{
+
+static tilt_lens::Vec3d From_Vector(const VECTOR v)
+{
+	return { v[X], v[Y], v[Z] };
+}
+
+/// Records the words around the tilt_lens block that matter to the lens. Called
+/// while the parser still marks words that were not given with HUGE_VAL.
+void Camera::Note_Words_For_Tilt_Lens()
+{
+	if (!Tilt_Lens.spec.enabled)
+		return;
+
+	Tilt_Lens.spec.angle_given = (Angle != HUGE_VAL) && (Angle > 0.0);
+	Tilt_Lens.spec.aperture = Aperture;
+	if (Look_At[X] != HUGE_VAL)
+		Tilt_Lens.spec.look_at = From_Vector(Look_At);
+	if (Focal_Point[X] != HUGE_VAL)
+		Tilt_Lens.spec.focal_point = From_Vector(Focal_Point);
+}
+
+/// Points given outside the block are camera words: they move with the camera.
+/// Points inside the block are world points: they do not.
+void Camera::Transform_Tilt_Lens(const TRANSFORM *Trans)
+{
+	tilt_lens::Given<tilt_lens::Vec3d> *points[2] = { &Tilt_Lens.spec.look_at, &Tilt_Lens.spec.focal_point };
+
+	for (int i = 0; i < 2; i++)
+	{
+		if (points[i]->given)
+		{
+			VECTOR v;
+			Make_Vector(v, points[i]->value.x, points[i]->value.y, points[i]->value.z);
+			MTransPoint(v, v, Trans);
+			points[i]->value = From_Vector(v);
+		}
+	}
+}
+
+}

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// What a scene says about its tilt_lens camera (LensSpec), and the lens that
+// follows from it (TiltLens). Free of POV-Ray, so that it can be tested alone.
+
+#ifndef TILT_LENS_LENS_SPEC_H
+#define TILT_LENS_LENS_SPEC_H
+
+#include <string>
+
+#include "vec3.h"
+
+namespace tilt_lens
+{
+
+typedef Vec3<double> Vec3d;
+
+/// A value that a scene may leave out.
+template<typename T>
+struct Given
+{
+	bool given = false;
+	T value = T();
+
+	Given& operator=(const T& v) { given = true; value = v; return *this; }
+	explicit operator bool() const { return given; }
+};
+
+/// The words of the tilt_lens block and the words around it that matter to the
+/// lens, as the scene gave them. Angles in degrees, lengths in world units.
+struct LensSpec
+{
+	bool enabled = false;
+
+	// The plane of focus: at most one of the first four.
+	Given<double> focal_plane_tilt;
+	Given<double> lens_tilt;
+	Given<Vec3d> focal_plane_point;     ///< focal_plane P, N
+	Vec3d focal_plane_normal = { 0.0, 0.0, 1.0 };
+	Given<Vec3d> focal_points[3];
+	Given<double> tilt_direction;
+	Given<double> focal_distance;
+
+	// The sensor side.
+	Given<double> image_distance;
+	Given<double> focal_length;
+	Given<Vec3d> shift;                 ///< x, y used
+
+	// The aperture.
+	Given<double> aperture_diameter;
+	Given<double> f_stop;
+
+	// Words outside the block. The points move with the camera's transformations.
+	bool angle_given = false;
+	Given<Vec3d> focal_point;
+	Given<Vec3d> look_at;
+	double aperture = 0.0;              ///< POV-Ray's word: a lens of diameter A/2
+};
+
+/// The camera's vectors after all its transformations, in the world.
+struct CameraVectors
+{
+	Vec3d location, direction, right, up;
+};
+
+/// The resolved lens. World vectors unless a name says camera (frame of
+/// DESIGN.md section 2: x right, y up, z along the axis).
+struct TiltLens
+{
+	Vec3d direction;                    ///< centre of the viewing window, shift included
+	Vec3d inverse_focus;                ///< q
+	Vec3d normal;                       ///< n
+	Vec3d lens_x, lens_y;               ///< radius times an orthonormal basis of the lens plane
+	double aperture_diameter = 0.0;
+
+	// For reports.
+	Vec3d inverse_focus_camera;         ///< q in the camera frame
+	Vec3d normal_camera;                ///< n in the camera frame
+	double image_distance = 0.0;        ///< w
+	double power = 0.0;                 ///< 1/f
+
+	/// No opening: the pinhole picture, traced as by `perspective`.
+	bool IsPinhole() const { return aperture_diameter == 0.0; }
+};
+
+/// The lens for the words and vectors. False where no lens does what the words
+/// ask, or where they contradict each other; `error` then says which inequality
+/// is violated and by how much, and what to change. Never leaves a NaN behind.
+bool ResolveTiltLens(const LensSpec& spec, const CameraVectors& camera, TiltLens& lens, std::string& error);
+
+}
+
+#endif

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// Parsing of camera { tilt_lens { ... } }. The words of the block are not
+// reserved: they are identifiers to the tokenizer and are told apart here, so
+// that scenes which use focal_length or shift as names of their own still parse.
+
+// frame.h must always be the first POV file included (pulls in platform config)
+#include "backend/frame.h"
+#include "backend/parser/parse.h"
+#include "backend/math/vector.h"
+#include "backend/scene/camera.h"
+
+// this must be the last file included
+#include "base/povdebug.h"
+
+namespace pov
+{
+
+using tilt_lens::Given;
+using tilt_lens::LensSpec;
+using tilt_lens::Vec3d;
+
+static const char Tilt_Lens_Words[] =
+	"focal_plane_tilt, lens_tilt, focal_plane, focal_points, tilt_direction, focal_distance, "
+	"image_distance, focal_length, shift, aperture_diameter, f_stop";
+
+// Samples per pixel where the scene gives an aperture but no blur_samples.
+static const int Default_Blur_Samples = 128;
+
+static Vec3d From_Vector(const VECTOR v)
+{
+	return { v[X], v[Y], v[Z] };
+}
+
+/// tilt_lens [ { WORDS } ]
+void Parser::Parse_Tilt_Lens(Camera& New)
+{
+	if (New.Tilt_Lens.spec.enabled)
+		Error("A camera has only one tilt_lens block.");
+	New.Tilt_Lens.spec = LensSpec();
+	New.Tilt_Lens.spec.enabled = true;
+	New.Type = PERSPECTIVE_CAMERA;
+
+	Get_Token();
+	Unget_Token();
+	if (Token.Token_Id != LEFT_CURLY_TOKEN)
+		return;
+
+	Parse_Begin();
+	while (true)
+	{
+		Get_Token();
+		if (Token.Token_Id == RIGHT_CURLY_TOKEN)
+			break;
+		Parse_Tilt_Lens_Word(New);
+	}
+	Unget_Token();
+	Parse_End();
+}
+
+/// One word of the block, which is the current token, and its value.
+void Parser::Parse_Tilt_Lens_Word(Camera& New)
+{
+	LensSpec& spec = New.Tilt_Lens.spec;
+	VECTOR v;
+	UV_VECT uv;
+
+	static const struct { const char *word; Given<double> LensSpec::*value; } floats[] =
+	{
+		{ "focal_plane_tilt", &LensSpec::focal_plane_tilt },
+		{ "lens_tilt", &LensSpec::lens_tilt },
+		{ "tilt_direction", &LensSpec::tilt_direction },
+		{ "focal_distance", &LensSpec::focal_distance },
+		{ "image_distance", &LensSpec::image_distance },
+		{ "focal_length", &LensSpec::focal_length },
+		{ "aperture_diameter", &LensSpec::aperture_diameter },
+		{ "f_stop", &LensSpec::f_stop }
+	};
+
+	// A name that the scene has declared arrives as that value's token.
+	const bool is_name = (Token.Token_Id == IDENTIFIER_TOKEN) || (Token.Data != NULL);
+	if (!is_name)
+		Expectation_Error(Tilt_Lens_Words);
+	const std::string word(Token.Token_String);
+
+	for (size_t i = 0; i < sizeof(floats) / sizeof(floats[0]); i++)
+	{
+		if (word == floats[i].word)
+		{
+			Given<double>& value = spec.*floats[i].value;
+			if (value.given)
+				Error("tilt_lens: %s is given twice.", floats[i].word);
+			value = Parse_Float();
+			return;
+		}
+	}
+
+	if (word == "focal_plane")
+	{
+		if (spec.focal_plane_point.given)
+			Error("tilt_lens: focal_plane is given twice.");
+		Parse_Vector(v);
+		spec.focal_plane_point = From_Vector(v);
+		Parse_Comma();
+		Parse_Vector(v);
+		spec.focal_plane_normal = From_Vector(v);
+	}
+	else if (word == "focal_points")
+	{
+		if (spec.focal_points[0].given)
+			Error("tilt_lens: focal_points is given twice.");
+		for (int i = 0; i < 3; i++)
+		{
+			if (i > 0)
+				Parse_Comma();
+			Parse_Vector(v);
+			spec.focal_points[i] = From_Vector(v);
+		}
+	}
+	else if (word == "shift")
+	{
+		if (spec.shift.given)
+			Error("tilt_lens: shift is given twice.");
+		Parse_UV_Vect(uv);
+		spec.shift = Vec3d{ uv[U], uv[V], 0.0 };
+	}
+	else
+		Error("Unknown word '%s' in the tilt_lens block; the words are %s.", word.c_str(), Tilt_Lens_Words);
+}
+
+/// The lens from the words and the camera's final vectors; parse errors for
+/// words that contradict each other and for planes that no lens can focus.
+void Parser::Resolve_Tilt_Lens(Camera& New)
+{
+	std::string error;
+	const tilt_lens::CameraVectors vectors =
+	{
+		From_Vector(New.Location), From_Vector(New.Direction), From_Vector(New.Right), From_Vector(New.Up)
+	};
+
+	if (New.Type != PERSPECTIVE_CAMERA)
+		Error("tilt_lens is a camera type of its own and cannot be combined with another.");
+	if (!tilt_lens::ResolveTiltLens(New.Tilt_Lens.spec, vectors, New.Tilt_Lens.lens, error))
+		Error("%s", error.c_str());
+	if (New.Tilt_Lens.Samples_Lens() && (New.Blur_Samples <= 0))
+		New.Blur_Samples = Default_Blur_Samples;
+}
+
+}

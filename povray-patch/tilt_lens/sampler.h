@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// The samples of one pixel: an Owen-scrambled Sobol sequence in four dimensions,
+// pixel x, pixel y, lens u, lens v. Seeded by the pixel's coordinates alone, so
+// that the picture does not depend on threads, tiles or strips.
+//
+// Sources: direction numbers from Joe and Kuo, "Constructing Sobol sequences with
+// better two-dimensional projections" (2008); scrambling by hashing from Burley,
+// "Practical Hash-based Owen Scrambling" (JCGT 2020), with the hash constants of
+// Vegdahl's refinement of the Laine-Karras permutation.
+
+#ifndef TILT_LENS_SAMPLER_H
+#define TILT_LENS_SAMPLER_H
+
+#include <cstdint>
+
+namespace tilt_lens
+{
+
+/// One sample; every component lies in (0, 1).
+struct LensSample
+{
+	double pixel_x, pixel_y, lens_u, lens_v;
+};
+
+namespace sobol
+{
+
+const int Dimensions = 4;
+const int Bits = 32;
+
+/// Direction numbers, bit-reversed: bit k of a point is its (k+1)th binary digit,
+/// which is the order in which the scrambling hash carries.
+struct Directions
+{
+	uint32_t v[Bits][Dimensions];
+	Directions();
+};
+
+inline uint32_t ReverseBits(uint32_t x)
+{
+	x = __builtin_bswap32(x);
+	x = ((x & 0x0f0f0f0fu) << 4) | ((x >> 4) & 0x0f0f0f0fu);
+	x = ((x & 0x33333333u) << 2) | ((x >> 2) & 0x33333333u);
+	return ((x & 0x55555555u) << 1) | ((x >> 1) & 0x55555555u);
+}
+
+inline Directions::Directions()
+{
+	// Joe and Kuo's new-joe-kuo-6, dimensions 2 to 4: degree s, coefficients a,
+	// initial m. Dimension 1 is the van der Corput sequence.
+	static const struct { int s; uint32_t a; uint32_t m[3]; } polynomial[Dimensions] =
+	{
+		{ 0, 0, { 0, 0, 0 } }, { 1, 0, { 1, 0, 0 } }, { 2, 1, { 1, 3, 0 } }, { 3, 1, { 1, 3, 1 } }
+	};
+
+	for(int d = 0; d < Dimensions; d++)
+	{
+		uint32_t w[Bits];
+		const int s = polynomial[d].s;
+
+		for(int i = 0; i < Bits; i++)
+		{
+			if(s == 0)
+				w[i] = 1u << (31 - i);
+			else if(i < s)
+				w[i] = polynomial[d].m[i] << (31 - i);
+			else
+			{
+				w[i] = w[i - s] ^ (w[i - s] >> s);
+				for(int k = 1; k < s; k++)
+					if((polynomial[d].a >> (s - 1 - k)) & 1u)
+						w[i] ^= w[i - k];
+			}
+		}
+		for(int i = 0; i < Bits; i++)
+			v[i][d] = ReverseBits(w[i]);
+	}
+}
+
+inline const Directions& DirectionTable()
+{
+	static const Directions table;
+	return table;
+}
+
+/// Nested uniform (Owen) scrambling of a bit-reversed point, as a hash in which
+/// every bit depends only on the bits below it.
+inline uint32_t ScrambleReversed(uint32_t x, uint32_t seed)
+{
+	x ^= x * 0x3d20adeau;
+	x += seed;
+	x *= (seed >> 16) | 1u;
+	x ^= x * 0x05526c56u;
+	x ^= x * 0x53a22864u;
+	return x;
+}
+
+/// A well-mixed 64-bit hash (the finaliser of splitmix64).
+inline uint64_t Mix(uint64_t z)
+{
+	z += 0x9e3779b97f4a7c15ull;
+	z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
+	z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
+	return z ^ (z >> 31);
+}
+
+}
+
+/// The sequence of one pixel. Any 2^k samples from the start are a scrambled
+/// digital net; Next() walks in Gray-code order, which permutes samples only
+/// within such blocks.
+class PixelSampler
+{
+	public:
+		/// x, y: the pixel's coordinates; equal coordinates give equal samples.
+		PixelSampler(uint32_t x, uint32_t y) :
+			table(sobol::DirectionTable()), index(0)
+		{
+			const uint64_t a = sobol::Mix((uint64_t(y) << 32) | x);
+			const uint64_t b = sobol::Mix(a);
+			seed[0] = uint32_t(a); seed[1] = uint32_t(a >> 32);
+			seed[2] = uint32_t(b); seed[3] = uint32_t(b >> 32);
+			point[0] = point[1] = point[2] = point[3] = 0;
+		}
+
+		/// The next sample; up to 2^32 - 1 of them.
+		LensSample Next()
+		{
+			// The lens gets the first two dimensions, the best of the sequence:
+			// blur needs many samples where the pixel's area needs few.
+			const LensSample s = { Value(2), Value(3), Value(0), Value(1) };
+			const int bit = __builtin_ctz(++index);
+			for(int d = 0; d < sobol::Dimensions; d++)
+				point[d] ^= table.v[bit][d];
+			return s;
+		}
+
+	private:
+		double Value(int d) const
+		{
+			const uint32_t bits = sobol::ReverseBits(sobol::ScrambleReversed(point[d], seed[d]));
+			return (double(bits) + 0.5) * (1.0 / 4294967296.0);
+		}
+
+		const sobol::Directions& table;
+		uint32_t index;
+		uint32_t seed[sobol::Dimensions];
+		uint32_t point[sobol::Dimensions];
+};
+
+}
+
+#endif

@@ -1,0 +1,36 @@
+# The board, rendered through the calibrated camera at the pose of each photograph of one state: its corners must be
+# where the photograph has them. A mirrored axis, a wrong handedness or half a pixel cannot pass.
+#
+#   cmake -DTILTCAL= -DPOVRAY= -DCOMPARE=<compare_corners> -DSCENES= -DCALIBRATION= -DSTATE= -DWORK= -P board.cmake
+cmake_minimum_required(VERSION 3.25)
+
+# Eight samples: a corner comes from some hundred pixels, whose noise averages out to a few hundredths of a pixel.
+set(SAMPLES 8)
+# RMS distance in pixels that the issue asks for; detection itself repeats to 0.06 px at this blur.
+set(LIMIT 0.4)
+
+file(REMOVE_RECURSE "${WORK}")
+file(MAKE_DIRECTORY "${WORK}")
+file(GLOB photos "${SCENES}/boxes/photos/target/${STATE}-*.jpg")
+set(renders "")
+foreach(photo IN LISTS photos)
+	get_filename_component(name "${photo}" NAME_WE)
+	string(REGEX REPLACE "^.*-" "" number "${name}")
+	set(pose "TiltCal_${STATE}_Photo_${number}")
+	file(WRITE "${WORK}/view.inc" "#include \"camera-${STATE}.inc\"\n"
+		"#declare View = TiltCal_${STATE}(${pose}_Location, ${pose}_Look_At, ${pose}_Sky)\n")
+	execute_process(
+		COMMAND "${POVRAY}" "+I${SCENES}/board/board.pov" "+L${SCENES}/board" "+L${WORK}" "+L${CALIBRATION}" +W1800 +H1200
+			"Declare=Samples=${SAMPLES}" -D -A +WT1 -GA +GF +FE "+O${WORK}/${name}.exr"
+		ERROR_FILE "${WORK}/${name}.log" OUTPUT_FILE "${WORK}/${name}.log" RESULT_VARIABLE failed)
+	if(failed)
+		file(READ "${WORK}/${name}.log" log)
+		message(FATAL_ERROR "rendering ${name} failed:\n${log}")
+	endif()
+	list(APPEND renders "${WORK}/${name}.exr")
+endforeach()
+
+execute_process(COMMAND "${TILTCAL}" detect --board 12x9 ${photos} --csv "${WORK}/photos.csv" OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND "${TILTCAL}" detect --board 12x9 ${renders} --csv "${WORK}/renders.csv" OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND "${COMPARE}" "${WORK}/photos.csv" "${WORK}/renders.csv" ${LIMIT} COMMAND_ERROR_IS_FATAL ANY)
+file(REMOVE ${renders})
