@@ -42,7 +42,9 @@ struct Task
 struct Geometry
 {
 	double w_px = 0, w_px_sigma = 0;
-	bool has_distortion = false;
+	int distortion_terms = 0;      ///< 0 none, 1 k1, 2 k1 k2, 4 with p1 p2, 5 with k3
+	std::vector<Vec3<double>> lens_normal;         ///< the axis of the distortion, given
+	bool shared_poses = false;     ///< photograph n of every state shows the board in one pose
 	Distortion distortion{}, distortion_sigma{};
 	std::vector<bool> principal_point_fixed;
 	std::vector<Point> principal_point, principal_point_sigma;

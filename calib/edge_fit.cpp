@@ -53,27 +53,23 @@ struct Normal
 	double weight = 0;
 };
 
-/// Normal equations of the robust problem at p; only the cost without `derivatives`.
-Normal Assemble(const Vector& p, const std::vector<EdgeSample>& samples, const Box& box, double scale, bool derivatives)
+/// Normal equations of the robust problem at p.
+Normal Assemble(const Vector& p, const std::vector<EdgeSample>& samples, const Box& box, double scale)
 {
 	Normal n;
 	Vector g;
 	for (const EdgeSample& sample : samples)
 	{
-		const double r = sample.value - Predict(p, sample, box, derivatives ? &g : nullptr);
+		const double r = sample.value - Predict(p, sample, box, &g);
 		const double u = std::abs(r) / scale;
 		const double w = u <= HUBER ? 1 : HUBER / u;
 		n.cost += u <= HUBER ? u * u : 2 * HUBER * u - HUBER * HUBER;
 		n.squares += w * r * r;
 		n.weight += w;
-		if (derivatives)
-		{
-			n.JtJ.selfadjointView<Eigen::Lower>().rankUpdate(g, w);
-			n.Jtr += w * r * g;
-		}
+		n.JtJ.selfadjointView<Eigen::Lower>().rankUpdate(g, w);
+		n.Jtr += w * r * g;
 	}
-	if (derivatives)
-		n.JtJ = n.JtJ.selfadjointView<Eigen::Lower>();
+	n.JtJ = Matrix(n.JtJ.selfadjointView<Eigen::Lower>());
 	return n;
 }
 
@@ -92,7 +88,7 @@ double ResidualScale(const Vector& p, const std::vector<EdgeSample>& samples, co
 bool Descend(Vector& p, const std::vector<EdgeSample>& samples, const Box& box, double scale, int iterations)
 {
 	double lambda = 1e-3;
-	Normal n = Assemble(p, samples, box, scale, true);
+	Normal n = Assemble(p, samples, box, scale);
 	for (int i = 0; i < iterations; ++i)
 	{
 		Matrix A = n.JtJ;
@@ -102,16 +98,17 @@ bool Descend(Vector& p, const std::vector<EdgeSample>& samples, const Box& box, 
 			return false;
 		Vector q = p + step;
 		q[RADIUS] = std::max(std::abs(q[RADIUS]), MIN_RADIUS);
-		const double cost = Assemble(q, samples, box, scale, false).cost;
-		if (cost <= n.cost)
+		// Steps are nearly always good, so the derivatives are computed with the cost.
+		const Normal next = Assemble(q, samples, box, scale);
+		if (next.cost <= n.cost)
 		{
-			const bool settled = n.cost - cost < 1e-7 * n.cost
-				&& std::abs(q[RADIUS] - p[RADIUS]) < 1e-4 && std::abs(step[OFFSET]) < 1e-4;
+			const bool settled = std::abs(q[RADIUS] - p[RADIUS]) < 1e-3 && std::abs(step[OFFSET]) < 1e-3
+				&& n.cost - next.cost < 1e-4 * n.cost;
 			p = q;
+			n = next;
 			if (settled)
 				return true;
 			lambda = std::max(lambda * 0.2, 1e-9);
-			n = Assemble(p, samples, box, scale, true);
 		}
 		else if ((lambda *= 5) > 1e8)
 			return true;
@@ -164,7 +161,7 @@ EdgeFit FitEdge(const std::vector<EdgeSample>& samples, double nx, double ny, do
 			return fit;
 		scale = ResidualScale(p, samples, box);
 	}
-	const Normal n = Assemble(p, samples, box, scale, true);
+	const Normal n = Assemble(p, samples, box, scale);
 	const double variance = n.squares / std::max(n.weight - PARAMETERS, 1.0);
 	const Matrix covariance = n.JtJ.ldlt().solve(Matrix::Identity()) * variance;
 	if (!covariance.allFinite() || !(p[HIGH] > p[LOW]))

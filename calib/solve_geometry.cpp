@@ -9,6 +9,7 @@
 #include <opencv2/calib3d.hpp>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace tiltcal
@@ -17,12 +18,13 @@ namespace tiltcal
 namespace
 {
 
-/// Corners measured better than this are not trusted to be: the lens is not a pinhole.
-const double CORNER_SIGMA_FLOOR = 0.02;
+/// First guess of what the camera model leaves out of a corner's place, px.
+const double FIRST_MODEL_SIGMA = 0.3;
 
 struct ReprojectionCost
 {
 	double x, y, u, v, weight;   // board mm, pixels, 1/px
+	Vec3<double> normal;
 
 	template<typename T>
 	bool operator()(const T* w_px, const T* distortion, const T* principal_point, const T* pose, T* residual) const
@@ -31,7 +33,7 @@ struct ReprojectionCost
 		if (P.z <= T(1e-9))
 			return false;
 		T pixel[2];
-		Project(*w_px, distortion, principal_point, P, pixel);
+		Project(*w_px, distortion, principal_point, normal, P, pixel);
 		residual[0] = weight * (pixel[0] - u);
 		residual[1] = weight * (pixel[1] - v);
 		return true;
@@ -89,18 +91,36 @@ void Initialise(const Task& task, Geometry& g)
 	}
 }
 
-void Build(const Task& task, Geometry& g, ceres::Problem& problem)
+/// The block that holds a photograph's pose.
+Pose& PoseOf(Geometry& g, size_t s, size_t p) { return g.poses[g.shared_poses ? 0 : s][p]; }
+
+void Build(const Task& task, Geometry& g, double model_sigma, ceres::Problem& problem)
 {
 	for (size_t s = 0; s < task.states.size(); ++s)
 		for (size_t p = 0; p < task.states[s].photos.size(); ++p)
 			for (const Corner& c : task.states[s].photos[p].corners)
 			{
-				const double weight = 1 / std::hypot(c.sigma, CORNER_SIGMA_FLOOR);
+				const double weight = 1 / std::hypot(c.sigma, model_sigma);
 				auto* cost = new ceres::AutoDiffCostFunction<ReprojectionCost, 2, 1, 5, 2, 6>(
-					new ReprojectionCost{ task.board.X(c.column), task.board.Y(c.row), c.x, c.y, weight });
-				// 3 sigma: a corner under a reflection must not bend the camera.
-				problem.AddResidualBlock(cost, new ceres::HuberLoss(3.0), &g.w_px, g.distortion.data(), g.principal_point[s].data(), g.poses[s][p].data());
+					new ReprojectionCost{ task.board.X(c.column), task.board.Y(c.row), c.x, c.y, weight, g.lens_normal[s] });
+				// Far out, because the model error is not noise: only a corner under a reflection
+				// or one taken for another must not bend the camera.
+				problem.AddResidualBlock(cost, new ceres::HuberLoss(8.0), &g.w_px, g.distortion.data(), g.principal_point[s].data(), PoseOf(g, s, p).data());
 			}
+}
+
+/// Keeps at 0 what the distortion model does not contain.
+void HoldDistortion(Geometry& g, ceres::Problem& problem)
+{
+	enum { K1, K2, P1, P2, K3 };
+	switch (g.distortion_terms)
+	{
+	case 0: problem.SetParameterBlockConstant(g.distortion.data()); break;
+	case 1: problem.SetManifold(g.distortion.data(), new ceres::SubsetManifold(5, { K2, P1, P2, K3 })); break;
+	case 2: problem.SetManifold(g.distortion.data(), new ceres::SubsetManifold(5, { P1, P2, K3 })); break;
+	case 4: problem.SetManifold(g.distortion.data(), new ceres::SubsetManifold(5, { K3 })); break;
+	default: break;
+	}
 }
 
 void Solve(ceres::Problem& problem)
@@ -118,31 +138,6 @@ void Solve(ceres::Problem& problem)
 		throw Refused("the reprojection fit did not converge: " + summary.message);
 }
 
-void Rms(const Task& task, Geometry& g)
-{
-	double total = 0;
-	size_t count = 0;
-	g.photo_rms.clear();
-	for (size_t s = 0; s < task.states.size(); ++s)
-	{
-		g.photo_rms.emplace_back();
-		for (size_t p = 0; p < task.states[s].photos.size(); ++p)
-		{
-			double sum = 0;
-			for (const Corner& c : task.states[s].photos[p].corners)
-			{
-				const Point at = Reproject(task, g, s, p, c.column, c.row);
-				sum += (at[0] - c.x) * (at[0] - c.x) + (at[1] - c.y) * (at[1] - c.y);
-			}
-			const size_t n = task.states[s].photos[p].corners.size();
-			g.photo_rms.back().push_back(std::sqrt(sum / double(n)));
-			total += sum;
-			count += n;
-		}
-	}
-	g.rms = std::sqrt(total / double(count));
-}
-
 /// Standard deviations, rescaled by the residuals; false when the problem is singular.
 bool Sigmas(ceres::Problem& problem, Geometry& g)
 {
@@ -158,8 +153,9 @@ bool Sigmas(ceres::Problem& problem, Geometry& g)
 	for (size_t s = 0; s < g.poses.size(); ++s)
 	{
 		want(g.principal_point[s].data());
-		for (const Pose& pose : g.poses[s])
-			want(pose.data());
+		if (s == 0 || !g.shared_poses)
+			for (const Pose& pose : g.poses[s])
+				want(pose.data());
 	}
 	if (!covariance.Compute(blocks, &problem))
 		return false;
@@ -184,9 +180,25 @@ bool Sigmas(ceres::Problem& problem, Geometry& g)
 	{
 		get(g.principal_point[s].data(), g.principal_point_sigma[s].data(), 2);
 		for (size_t p = 0; p < g.poses[s].size(); ++p)
-			get(g.poses[s][p].data(), g.pose_sigmas[s][p].data(), 6);
+			get(PoseOf(g, s, p).data(), g.pose_sigmas[s][p].data(), 6);
 	}
 	return true;
+}
+
+/// 1.4826 median |residual| of the coordinates: what the model leaves out, or the noise.
+double ModelSigma(const Task& task, const Geometry& g)
+{
+	std::vector<double> r;
+	for (size_t s = 0; s < task.states.size(); ++s)
+		for (size_t p = 0; p < task.states[s].photos.size(); ++p)
+			for (const Corner& c : task.states[s].photos[p].corners)
+			{
+				const Point at = Reproject(task, g, s, p, c.column, c.row);
+				r.push_back(std::abs(at[0] - c.x));
+				r.push_back(std::abs(at[1] - c.y));
+			}
+	std::nth_element(r.begin(), r.begin() + long(r.size() / 2), r.end());
+	return std::max(1.4826 * r[r.size() / 2], 1e-4);
 }
 
 /// Fixes the principal points that the photographs leave open. True: some were fixed.
@@ -198,7 +210,7 @@ bool FixLoosePrincipalPoints(const Task& task, Geometry& g, ceres::Problem& prob
 		double* block = g.principal_point[s].data();
 		// Two unknowns of the plane's homography are left for the sensor, per photo; three are wanted.
 		const bool loose = solved ? std::max(g.principal_point_sigma[s][0], g.principal_point_sigma[s][1]) > 0.02 * task.width
-			: task.states[s].photos.size() < 2;
+			: task.states[s].photos.size() < 2 && (s == 0 || !g.shared_poses);
 		if (!loose || problem.IsParameterBlockConstant(block))
 			continue;
 		spdlog::warn("state {}: the photographs do not determine the principal point; it is kept at the picture's centre. "
@@ -211,31 +223,15 @@ bool FixLoosePrincipalPoints(const Task& task, Geometry& g, ceres::Problem& prob
 	return any;
 }
 
-}
-
-Point Reproject(const Task& task, const Geometry& g, size_t state, size_t photo, double column, double row)
+/// One weighted fit from g, with sigmas. False: singular.
+bool Fit(const Task& task, double model_sigma, Geometry& g)
 {
-	const Vec3<double> P = CameraFromBoard(g.poses[state][photo].data(), task.board.X(column), task.board.Y(row));
-	Point pixel;
-	Project(g.w_px, g.distortion.data(), g.principal_point[state].data(), P, pixel.data());
-	return pixel;
-}
-
-Vec3<double> EdgeInCamera(const Task& task, const Pose& pose, const Edge& edge)
-{
-	return CameraFromBoard(pose.data(), task.board.X(edge.board_column), task.board.Y(edge.board_row));
-}
-
-Geometry SolveGeometry(const Task& task, bool with_distortion)
-{
-	Geometry g;
-	g.has_distortion = with_distortion;
-	g.principal_point_fixed.assign(task.states.size(), false);
-	Initialise(task, g);
 	ceres::Problem problem;
-	Build(task, g, problem);
-	if (!with_distortion)
-		problem.SetParameterBlockConstant(g.distortion.data());
+	Build(task, g, model_sigma, problem);
+	HoldDistortion(g, problem);
+	for (size_t s = 0; s < g.principal_point.size(); ++s)
+		if (g.principal_point_fixed[s])
+			problem.SetParameterBlockConstant(g.principal_point[s].data());
 	FixLoosePrincipalPoints(task, g, problem, false);
 	Solve(problem);
 	bool regular = Sigmas(problem, g);
@@ -244,11 +240,83 @@ Geometry SolveGeometry(const Task& task, bool with_distortion)
 		Solve(problem);
 		regular = Sigmas(problem, g);
 	}
+	if (g.shared_poses)
+		std::fill(g.poses.begin() + 1, g.poses.end(), g.poses[0]);
+	return regular;
+}
+
+}
+
+Point Reproject(const Task& task, const Geometry& g, size_t state, size_t photo, double column, double row)
+{
+	const Vec3<double> P = CameraFromBoard(g.poses[state][photo].data(), task.board.X(column), task.board.Y(row));
+	Point pixel;
+	Project(g.w_px, g.distortion.data(), g.principal_point[state].data(), g.lens_normal[state], P, pixel.data());
+	return pixel;
+}
+
+Vec3<double> EdgeInCamera(const Task& task, const Pose& pose, const Edge& edge)
+{
+	return CameraFromBoard(pose.data(), task.board.X(edge.board_column), task.board.Y(edge.board_row));
+}
+
+void MeasureReprojection(const Task& task, Geometry& g)
+{
+	double total = 0;
+	size_t count = 0;
+	g.photo_rms.clear();
+	for (size_t s = 0; s < task.states.size(); ++s)
+	{
+		g.photo_rms.emplace_back();
+		for (size_t p = 0; p < task.states[s].photos.size(); ++p)
+		{
+			double sum = 0;
+			for (const Corner& c : task.states[s].photos[p].corners)
+			{
+				const Point at = Reproject(task, g, s, p, c.column, c.row);
+				sum += (at[0] - c.x) * (at[0] - c.x) + (at[1] - c.y) * (at[1] - c.y);
+			}
+			const size_t n = task.states[s].photos[p].corners.size();
+			g.photo_rms.back().push_back(std::sqrt(sum / double(n)));
+			total += sum;
+			count += n;
+		}
+	}
+	g.rms = std::sqrt(total / double(count));
+}
+
+Geometry SolveGeometry(const Task& task, const GeometryOptions& options)
+{
+	Geometry g;
+	g.distortion_terms = options.terms;
+	g.shared_poses = options.shared_poses;
+	g.lens_normal = options.lens_normal;
+	g.lens_normal.resize(task.states.size(), Vec3<double>{ 0, 0, 1 });
+	g.principal_point_fixed.assign(task.states.size(), false);
+	Initialise(task, g);
+	bool regular = Fit(task, FIRST_MODEL_SIGMA, g);
+	if (regular)
+		regular = Fit(task, ModelSigma(task, g), g);
 	if (!regular || !(g.w_px_sigma < 0.03 * g.w_px))
 		throw Refused("the photographs do not determine the image distance: the board is (nearly) parallel to the sensor in all of them. "
 			"Photograph it inclined by 20 to 45 degrees, in three or more directions");
-	Rms(task, g);
+	MeasureReprojection(task, g);
 	return g;
+}
+
+Geometry SelectGeometry(const Task& task, GeometryOptions options)
+{
+	options.terms = 0;
+	Geometry best = SolveGeometry(task, options);
+	for (const int terms : { 1, 2, 4, 5 })
+	{
+		options.terms = terms;
+		Geometry next = SolveGeometry(task, options);
+		if (next.rms > 0.985 * best.rms)
+			break;
+		best = next;
+	}
+	return best;
 }
 
 }

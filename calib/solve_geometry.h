@@ -8,14 +8,35 @@
 namespace tiltcal
 {
 
+struct GeometryOptions
+{
+	/// Brown-Conrady coefficients: 0 none, 1 k1, 2 k1 k2, 4 k1 k2 p1 p2, 5 all.
+	int terms = 0;
+	/// Per state, camera frame; empty: untilted everywhere.
+	std::vector<Vec3<double>> lens_normal;
+	/// Photograph n of every state shows the board in the same place, only the lens was
+	/// tilted in between (as in the paper). Then the principal point of a tilted state
+	/// is the shift of the picture, told from the camera's rotation; with poses of their
+	/// own the two compensate each other almost wholly (in photos-45mm: 14 px).
+	/// Needs as many photographs in every state.
+	bool shared_poses = false;
+};
+
 /// Least squares of the reprojection over all photographs of all states: common image
-/// distance, common distortion (when `with_distortion`) centred on each state's own
-/// principal point, a pose per photograph. A tilted lens turns about a pivot away from
-/// its pupil, so neither the principal point nor the pose is shared between states.
+/// distance, common distortion about each state's own lens axis, a principal point per
+/// state, and a pose per photograph or per photograph number.
 /// Starts from cv::calibrateCamera. A principal point that the photographs do not
 /// determine (sigma above 2 % of the picture's width) stays at the picture's centre.
 /// Throws Refused when w is not determined, naming what to photograph.
-Geometry SolveGeometry(const Task& task, bool with_distortion);
+Geometry SolveGeometry(const Task& task, const GeometryOptions& options);
+
+/// The smallest distortion model after which the next larger one lowers the RMS by less
+/// than 1.5 %: coefficients that only fit noise spoil the picture beyond the board.
+/// `options.terms` is not used.
+Geometry SelectGeometry(const Task& task, GeometryOptions options);
+
+/// Fills photo_rms and rms.
+void MeasureReprojection(const Task& task, Geometry& geometry);
 
 /// Pixel where the geometry puts board point (column, row), in squares.
 Point Reproject(const Task& task, const Geometry& geometry, size_t state, size_t photo, double column, double row);

@@ -3,6 +3,7 @@
 #include "solve_blur.h"
 
 #include "error.h"
+#include "solve_geometry.h"
 #include "tilt_angles.h"
 
 #include <ceres/ceres.h>
@@ -175,27 +176,33 @@ StageOne SolveStageOne(const Task& task, const Geometry& start)
 	return best;
 }
 
-/// tan(theta_F) by (4): the sum is scanned, then refined from its lowest points.
-Estimate SolveStageTwo(const Task& task, const State& state, const StageOne& one, const std::vector<Pose>& poses, StateLens& lens)
+std::vector<StageTwoCost> StageTwoCosts(const Task& task, const State& state, const StageOne& one, const std::vector<Pose>& poses)
 {
 	std::vector<StageTwoCost> costs;
 	for (const Feature& f : FeaturesOf(task, state))
 		costs.push_back({ CameraFromBoard(poses[f.photo].data(), f.x, f.y), f.blur, one.w_px, one.U, one.d });
-	const auto sum = [&](double t)
+	return costs;
+}
+
+double SumOfSquares(const std::vector<StageTwoCost>& costs, double tan_tilt)
+{
+	double total = 0, r = 0;
+	for (const StageTwoCost& c : costs)
 	{
-		double total = 0, r = 0;
-		for (const StageTwoCost& c : costs)
-		{
-			c(&t, &r);
-			total += r * r;
-		}
-		return total;
-	};
+		c(&tan_tilt, &r);
+		total += r * r;
+	}
+	return total;
+}
+
+/// tan(theta_F) by (4): the sum is scanned over all tilts, then refined from its lowest point.
+Estimate SolveStageTwo(const std::vector<StageTwoCost>& costs, StateLens& lens)
+{
 	double best = 0, least = 1e300;
-	for (int k = -400; k <= 400; ++k)
+	for (int k = -440; k <= 440; ++k)
 	{
 		const double t = std::tan(k * 0.2 * 3.14159265358979 / 180);
-		const double value = sum(t);
+		const double value = SumOfSquares(costs, t);
 		if (value < least)
 			least = value, best = t;
 	}
@@ -204,17 +211,14 @@ Estimate SolveStageTwo(const Task& task, const State& state, const StageOne& one
 		problem.AddResidualBlock(new ceres::AutoDiffCostFunction<StageTwoCost, 1, 1>(new StageTwoCost(c)), nullptr, &best);
 	ceres::Solver::Summary summary;
 	ceres::Solve(Options(), &problem, &summary);
-	std::vector<double> jacobian;
+	lens.converged = summary.IsSolutionUsable();
 	ceres::CRSMatrix J;
 	problem.Evaluate(ceres::Problem::EvaluateOptions(), nullptr, nullptr, nullptr, &J);
 	double information = 0;
 	for (const double j : J.values)
 		information += j * j;
-	least = sum(best);
-	lens.edges = int(costs.size());
-	lens.rms_blur = std::sqrt(least / double(std::max<size_t>(costs.size(), 1)));
-	lens.converged = summary.IsSolutionUsable();
-	return { best, std::sqrt(least / std::max(1.0, double(costs.size()) - 1) / std::max(information, 1e-30)) };
+	const double variance = SumOfSquares(costs, best) / std::max(1.0, double(costs.size()) - 1);
+	return { best, std::sqrt(variance / std::max(information, 1e-30)) };
 }
 
 void FillState(const StageOne& one, double w_mm, double w_sigma, const Estimate& slope, StateLens& lens)
@@ -237,7 +241,8 @@ void Solve(const Task& task, const Geometry& start, Geometry& found, Solution& o
 	found = start;
 	found.w_px = one.w_px;
 	found.w_px_sigma = one.w_sigma;
-	found.has_distortion = false;
+	found.distortion_terms = 0;
+	found.lens_normal.assign(task.states.size(), Vec3<double>{ 0, 0, 1 });
 	found.distortion = found.distortion_sigma = Distortion{};
 	found.poses[0] = one.poses;
 	out.w_mm = { w, w_sigma };
@@ -253,30 +258,18 @@ void Solve(const Task& task, const Geometry& start, Geometry& found, Solution& o
 			found.poses[s] = task.states[s].photos.size() == one.poses.size() ? one.poses : CentredPoses(task, start, s);
 		StateLens lens;
 		Estimate slope{ 0, 0 };
-		Estimate fitted = SolveStageTwo(task, task.states[s], one, found.poses[s], lens);
+		const std::vector<StageTwoCost> costs = StageTwoCosts(task, task.states[s], one, found.poses[s]);
 		if (s > 0)
-			slope = fitted;
-		else
-		{
-			// Only the residuals are wanted here: the untilted state has no tilt to find.
-			std::vector<Feature> features = FeaturesOf(task, task.states[0]);
-			double sum = 0;
-			for (const Feature& f : features)
-			{
-				const StageTwoCost c{ CameraFromBoard(one.poses[f.photo].data(), f.x, f.y), f.blur, one.w_px, one.U, one.d };
-				double r = 0, zero = 0;
-				c(&zero, &r);
-				sum += r * r;
-			}
-			lens.rms_blur = std::sqrt(sum / double(features.size()));
-			lens.edges = int(features.size());
-		}
+			slope = SolveStageTwo(costs, lens);
+		lens.edges = int(costs.size());
+		lens.rms_blur = std::sqrt(SumOfSquares(costs, slope.value) / double(std::max<size_t>(costs.size(), 1)));
 		FillState(one, w, w_sigma, slope, lens);
 		total += lens.rms_blur * lens.rms_blur * lens.edges;
 		count += lens.edges;
 		out.states.push_back(lens);
 	}
 	out.rms_blur = std::sqrt(total / std::max(count, 1));
+	MeasureReprojection(task, found);
 	out.focus_distance = out.states[0].focus_distance;
 	out.focal_length = out.states[0].focal_length;
 }

@@ -6,6 +6,8 @@
 #
 #   cmake -DDESTINATION=... [-DSOURCE=...] -P AcquirePovray.cmake
 
+cmake_minimum_required(VERSION 3.25)
+
 include("${CMAKE_CURRENT_LIST_DIR}/PovrayPin.cmake")
 set(archive "${DESTINATION}/${POVRAY_ARCHIVE}")
 

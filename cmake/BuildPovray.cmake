@@ -4,6 +4,8 @@
 #   cmake -DWORK=... -DSTAGE=... -DPATCH_DIR=... -DFLAGS=... [-DSOURCE=...] [-DCCACHE=...]
 #         [-DCXX=...] [-DCC=...] -P BuildPovray.cmake
 
+cmake_minimum_required(VERSION 3.25)
+
 include("${CMAKE_CURRENT_LIST_DIR}/PovrayPin.cmake")
 set(src "${WORK}/src")
 

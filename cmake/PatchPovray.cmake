@@ -8,6 +8,8 @@
 # WORK/src       what is built
 # WORK/staging   patched copies of the patched files
 
+cmake_minimum_required(VERSION 3.25)
+
 set(pristine "${WORK}/pristine")
 set(src "${WORK}/src")
 set(staging "${WORK}/staging")

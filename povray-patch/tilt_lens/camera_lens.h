@@ -6,15 +6,26 @@
 #ifndef TILT_LENS_CAMERA_LENS_H
 #define TILT_LENS_CAMERA_LENS_H
 
+#include <vector>
+
 #include "backend/tilt_lens/lens_spec.h"
 
 namespace tilt_lens
 {
 
+/// A number of samples at which a pixel may stop, and the variance of its mean
+/// below which it does.
+struct SampleLevel
+{
+	int samples;
+	double stop_below;
+};
+
 struct CameraLens
 {
 	LensSpec spec;
 	TiltLens lens;
+	std::vector<SampleLevel> levels;    ///< increasing; the last one always stops
 
 	/// Rays leave from many points of the lens (and cover the pixel's area), not from one.
 	bool Samples_Lens() const { return spec.enabled && !lens.IsPinhole(); }

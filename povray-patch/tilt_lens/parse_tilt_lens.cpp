@@ -7,6 +7,7 @@
 // frame.h must always be the first POV file included (pulls in platform config)
 #include "backend/frame.h"
 #include "backend/parser/parse.h"
+#include "backend/math/chi2.h"
 #include "backend/math/vector.h"
 #include "backend/scene/camera.h"
 
@@ -26,6 +27,9 @@ static const char Tilt_Lens_Words[] =
 
 // Samples per pixel where the scene gives an aperture but no blur_samples.
 static const int Default_Blur_Samples = 128;
+
+// The variance of fewer samples than this says too little to stop on.
+static const int First_Level = 16;
 
 static Vec3d From_Vector(const VECTOR v)
 {
@@ -128,6 +132,26 @@ void Parser::Parse_Tilt_Lens_Word(Camera& New)
 		Error("Unknown word '%s' in the tilt_lens block; the words are %s.", word.c_str(), Tilt_Lens_Words);
 }
 
+/// The numbers of samples at which a pixel may stop: 16, 32, 64, ... from the
+/// scene's minimum to its maximum. The measured variance is an estimate from
+/// n - 1 degrees of freedom, so it is its upper bound at the scene's confidence
+/// that must be below the scene's variance.
+static std::vector<tilt_lens::SampleLevel> Sample_Levels(const Camera& camera)
+{
+	std::vector<tilt_lens::SampleLevel> levels;
+	const int last = max(camera.Blur_Samples, 1);
+
+	for (int n = First_Level; n < last; n *= 2)
+	{
+		if (n >= camera.Blur_Samples_Min)
+			levels.push_back({ n, camera.Variance * chdtri(n - 1.0, camera.Confidence) / (n - 1.0) });
+		if (n > last / 2)
+			break;
+	}
+	levels.push_back({ last, 0.0 });
+	return levels;
+}
+
 /// The lens from the words and the camera's final vectors; parse errors for
 /// words that contradict each other and for planes that no lens can focus.
 void Parser::Resolve_Tilt_Lens(Camera& New)
@@ -144,6 +168,7 @@ void Parser::Resolve_Tilt_Lens(Camera& New)
 		Error("%s", error.c_str());
 	if (New.Tilt_Lens.Samples_Lens() && (New.Blur_Samples <= 0))
 		New.Blur_Samples = Default_Blur_Samples;
+	New.Tilt_Lens.levels = Sample_Levels(New);
 }
 
 }

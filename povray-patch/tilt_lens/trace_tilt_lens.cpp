@@ -5,7 +5,6 @@
 // frame.h must always be the first POV file included (pulls in platform config)
 #include "backend/frame.h"
 #include "backend/colour/colour.h"
-#include "backend/math/chi2.h"
 #include "backend/math/vector.h"
 #include "backend/render/tracepixel.h"
 #include "backend/tilt_lens/optics.h"
@@ -18,9 +17,6 @@ namespace pov
 {
 
 using tilt_lens::Vec3d;
-
-// The variance of fewer samples than this says too little to stop on.
-static const int First_Level = 16;
 
 /// Turns the pinhole ray of a pixel, which stands in `ray`, into the ray that
 /// leaves the current lens sample (DESIGN.md, section 2). False where the pixel
@@ -50,21 +46,44 @@ struct Sample_Sums
 	static const int Channels = 5;
 	DBL sum[Channels], squares[Channels];
 	int count;
+	// the sums as they stood at the last power of two below count
+	DBL earlier_sum[Channels];
+	int earlier_count;
 
-	Sample_Sums() : count(0)
+	Sample_Sums() : count(0), earlier_count(0)
 	{
 		for(int i = 0; i < Channels; i++)
-			sum[i] = squares[i] = 0.0;
+			sum[i] = squares[i] = earlier_sum[i] = 0.0;
 	}
 
 	void Add(const Colour& c)
 	{
+		if((count & (count - 1)) == 0)
+			KeepEarlier();
 		for(int i = 0; i < Channels; i++)
 		{
 			sum[i] += c[i];
 			squares[i] += DBL(c[i]) * DBL(c[i]);
 		}
 		count++;
+	}
+
+	void KeepEarlier()
+	{
+		for(int i = 0; i < Channels; i++)
+			earlier_sum[i] = sum[i];
+		earlier_count = count;
+	}
+
+	/// Squared error of the mean, averaged over red, green and blue: what the later
+	/// half of the samples changed. Rough for one pixel, right on average over many,
+	/// and it sees what a digital net gains over independent samples.
+	DBL SquaredError() const
+	{
+		DBL error = 0.0;
+		for(int i = 0; (i < 3) && (earlier_count > 0); i++)
+			error += Sqr(earlier_sum[i] / earlier_count - sum[i] / count);
+		return error / 3.0;
 	}
 
 	/// Largest variance of the mean over the channels (taken as if the samples were
@@ -81,21 +100,20 @@ struct Sample_Sums
 	}
 };
 
-/// Distributed ray tracing over the pixel and the lens. Stops at 16, 32, 64, ...
-/// samples once the variance of the pixel's mean is below `variance`, with the
-/// probability `confidence`, and at blur_samples in any case.
+/// Distributed ray tracing over the pixel and the lens, until the pixel's mean is
+/// as certain as the scene asks, or blur_samples are spent.
 void TracePixel::TraceRayWithTiltLens(Colour& colour, DBL x, DBL y, DBL width, DBL height)
 {
 	tilt_lens::PixelSampler sampler((uint32_t)(int)x, (uint32_t)(int)y);
-	const int last = max(camera.Blur_Samples, 1);
-	int level = min(max(First_Level, camera.Blur_Samples_Min), last);
+	const vector<tilt_lens::SampleLevel>& levels = camera.Tilt_Lens.levels;
 	Sample_Sums sums;
 	Ray ray;
 
-	while(true)
+	for(size_t level = 0; level < levels.size(); level++)
 	{
-		while(sums.count < level)
+		while(sums.count < levels[level].samples)
 		{
+			// No ray, where the pixel looks along or behind the lens: empty, transparent.
 			Colour c(0.0, 0.0, 0.0, 0.0, 1.0);
 
 			tiltLensSample = sampler.Next();
@@ -109,18 +127,14 @@ void TracePixel::TraceRayWithTiltLens(Colour& colour, DBL x, DBL y, DBL width, D
 			}
 			sums.Add(c);
 		}
-		if(sums.count >= last)
+		if((level + 1 == levels.size()) || (sums.VarianceOfMean() < levels[level].stop_below))
 			break;
-		// The variance is itself an estimate from n - 1 degrees of freedom: ask for its
-		// upper bound at the scene's confidence.
-		const DBL freedom = sums.count - 1;
-		if(sums.VarianceOfMean() * freedom < camera.Variance * chdtri(freedom, camera.Confidence))
-			break;
-		level = min(2 * level, last);
 	}
 
 	for(int i = 0; i < Sample_Sums::Channels; i++)
 		colour[i] = sums.sum[i] / sums.count;
+	if(!pretrace)
+		threadData->tiltLensCounts.AddPixel(sums.count, sums.SquaredError());
 }
 
 }

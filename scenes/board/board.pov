@@ -1,16 +1,21 @@
 // The calibration board as a calibrated camera saw it in one of its own photographs.
 //
-// view.inc is two lines, written by whoever renders (here: state plus5, photograph 3), in a folder given with +L:
-//   #include "camera-plus5.inc"
-//   #declare View = TiltCal_plus5(TiltCal_plus5_Photo_3_Location, TiltCal_plus5_Photo_3_Look_At, TiltCal_plus5_Photo_3_Sky)
-// POV-Ray 3.7 takes numbers only from the command line, and makes no macro name from a number.
+//   povray board.pov +L<folder of tiltcal calibrate --out> Declare=State=1 Declare=Photo=3 +W1800 +H1200
+//
+// State: 0 untilted, 1 plus5, 2 minus5. Photo: 1, 2, ... in the order of that state's files.
+// TiltCal_Blur_Samples and TiltCal_Distortion are the camera file's own switches; Declare works for them too.
 #version 3.7;
 global_settings { assumed_gamma 1 }
 #include "board.inc"
-#include "view.inc"
 
-#ifndef (Samples) #declare Samples = 64; #end
-#ifndef (Variance) #declare Variance = 0; #end
+#ifndef (State) #declare State = 0; #end
+#ifndef (Photo) #declare Photo = 1; #end
 
-camera { View blur_samples Samples variance Variance }
+#switch (State)
+	#case (0) #include "camera-untilted.inc" TiltCal_untilted_Pose(Photo) #break
+	#case (1) #include "camera-plus5.inc" TiltCal_plus5_Pose(Photo) #break
+	#case (2) #include "camera-minus5.inc" TiltCal_minus5_Pose(Photo) #break
+	#else #error "State must be 0 (untilted), 1 (plus5) or 2 (minus5).\n"
+#end
+
 background { Board_Background }

@@ -2,8 +2,8 @@
 #
 #   cmake -DTILTCAL= -DPOVRAY= -DEXR2PNG= -DSCENE=<this folder> -DOUT= [-DSAMPLES=64] -P demo.cmake
 #
-# OUT receives calibration/, render-<state>.exr and .png, side-by-side-<state>.png, profile-<state>.png and .csv
-# and summary.md. Any step that fails ends the demo.
+# OUT receives calibration/, render-<state>.exr and .png, side-by-side-<state>.png (photograph left), profile-<state>.png,
+# profiles/ (curves as CSV and numbers as JSON for every match) and summary.md. Any step that fails ends the demo.
 cmake_minimum_required(VERSION 3.25)
 include("${CMAKE_CURRENT_LIST_DIR}/summary.cmake")
 
@@ -41,25 +41,38 @@ execute_process(
 set(number 0)
 foreach(state IN LISTS STATES)
 	step("rendering the boxes, ${state}: 1800 x 1200, ${SAMPLES} lens samples per pixel")
-	# +V alone on the console: POV-Ray's own progress. Statistics, with the Tilt lens block, go to a file.
+	set(log "${OUT}/render-${state}.txt")
 	execute_process(
 		COMMAND "${POVRAY}" "+I${SCENE}/boxes.pov" "+L${SCENE}" "+L${OUT}/calibration" +W1800 +H1200
-			"Declare=State=${number}" "Declare=Samples=${SAMPLES}" -D -A +WT2 +V -GA +GF
-			"+GS${OUT}/render-${state}.txt" +FE "+O${OUT}/render-${state}.exr"
-		COMMAND_ERROR_IS_FATAL ANY)
-	execute_process(COMMAND "${EXR2PNG}" "${OUT}/render-${state}.exr" "${OUT}/render-${state}.png" COMMAND_ERROR_IS_FATAL ANY)
+			Declare=State=${number} Declare=TiltCal_Blur_Samples=${SAMPLES} -D -A +WT2 +FE "+O${OUT}/render-${state}.exr"
+		OUTPUT_FILE "${log}" ERROR_FILE "${log}" RESULT_VARIABLE failed)
+	file(READ "${log}" text)
+	if(failed)
+		message(FATAL_ERROR "${text}\nPOV-Ray failed")
+	endif()
+	if(text MATCHES "\n(Tilt lens[^\n]*\n([^-=\n][^\n]*\n)*)")
+		message("${CMAKE_MATCH_1}") # the block of the render statistics
+	endif()
 	math(EXPR number "${number} + 1")
 endforeach()
 
 foreach(state IN LISTS STATES)
 	step("comparing photograph and render, ${state}")
-	foreach(match gain shading) # shading last: its picture and plot stay
+	set(photo "${SCENE}/photos/scene/${state}.jpg")
+	set(render "${OUT}/render-${state}")
+	foreach(match gain shading)
 		execute_process(
-			COMMAND "${TILTCAL}" profile "${SCENE}/photos/scene/${state}.jpg" "${OUT}/render-${state}.exr"
-				--line ${RED_LINE} --line ${GREEN_LINE} --match ${match}
-				--json "${OUT}/profile-${state}-${match}.json" --out "${OUT}/profile-${state}-${match}"
+			COMMAND "${TILTCAL}" profile "${photo}" "${render}.exr" --line ${RED_LINE} --line ${GREEN_LINE} --match ${match}
+				--json "${OUT}/profiles/${state}-${match}.json" --out "${OUT}/profiles/${state}-${match}"
 			OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 	endforeach()
+	file(COPY_FILE "${OUT}/profiles/${state}-shading/profile.png" "${OUT}/profile-${state}.png")
+	# Side by side at one brightness: the photograph's exposure is the gain that was just fitted.
+	file(READ "${OUT}/profiles/${state}-gain.json" json)
+	string(JSON gain GET "${json}" shading coefficients 0)
+	execute_process(
+		COMMAND "${EXR2PNG}" "${render}.exr" "${render}.png" "${photo}" ${gain} "${OUT}/side-by-side-${state}.png"
+		COMMAND_ERROR_IS_FATAL ANY)
 endforeach()
 
 step("summary")

@@ -9,7 +9,7 @@
 //
 //   oracle CASE --stock POVRAY --ours POVRAY --scene oracle-scene.inc --work DIR [--frames N] [--samples N]
 //
-// Exit 0: RMS difference in linear RGB within the limit, 1: not, 2: wrong usage or a program failed.
+// Exit 0: RMS difference in linear RGB within the limits, 1: not, 2: wrong usage or a program failed.
 #include "oracle_cases.h"
 #include "picture.h"
 #include "run_povray.h"
@@ -28,10 +28,10 @@ namespace
 
 namespace fs = std::filesystem;
 
-constexpr int width = 240, height = 180;
-constexpr double aspect = double(width) / height;
-constexpr double pi = 3.14159265358979323846;
-constexpr int processes = 8; // an even number
+constexpr int WIDTH = 240, HEIGHT = 180;
+constexpr double ASPECT = double(WIDTH) / HEIGHT;
+constexpr double PI = 3.14159265358979323846;
+constexpr int PROCESSES = 8; // an even number
 
 double Dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 Vector Times(const Vector& a, double s) { return {a[0] * s, a[1] * s, a[2] * s}; }
@@ -41,7 +41,7 @@ Vector Cross(const Vector& a, const Vector& b)
 	return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 Vector Unit(const Vector& a) { return Times(a, 1 / std::sqrt(Dot(a, a))); }
-double Radians(double degrees) { return degrees * pi / 180; }
+double Radians(double degrees) { return degrees * PI / 180; }
 
 // SDL of a vector, to the last digit.
 std::string Sdl(const Vector& a)
@@ -87,15 +87,15 @@ std::array<Vector, 4> Pinhole(const Camera& camera, int i)
 	const Lens lens = LensOf(camera);
 	const Vector first = Unit(Cross(lens.n, {0.36, 0.48, 0.8})), second = Cross(lens.n, first);
 	const double radius = camera.aperture_diameter / 2 * std::sqrt(RadicalInverse(2, i));
-	const double turn = 2 * pi * RadicalInverse(3, i);
+	const double turn = 2 * PI * RadicalInverse(3, i);
 	const Vector S = Plus(Times(first, radius * std::cos(turn)), Times(second, radius * std::sin(turn)));
 
 	double depth = camera.image_distance;
 	if (camera.angle > 0)
-		depth = aspect / 2 / std::tan(Radians(camera.angle) / 2);
+		depth = ASPECT / 2 / std::tan(Radians(camera.angle) / 2);
 	// The shift inside the pixel makes the mean a box filter over it, as the camera's own samples are.
-	const Vector right{aspect, 0, 0}, up{0, 1, 0};
-	const Vector direction{aspect * (RadicalInverse(5, i) - 0.5) / width, (RadicalInverse(7, i) - 0.5) / height, depth};
+	const Vector right{ASPECT, 0, 0}, up{0, 1, 0};
+	const Vector direction{ASPECT * (RadicalInverse(5, i) - 0.5) / WIDTH, (RadicalInverse(7, i) - 0.5) / HEIGHT, depth};
 	const auto M = [&](const Vector& v) { return Plus(v, Times(S, -Dot(lens.q, v))); };
 	return {S, M(direction), M(right), M(up)};
 }
@@ -128,7 +128,7 @@ Picture SumOfPinholes(const Camera& camera, const fs::path& scene, const fs::pat
 	file << "}\n#declare F = frame_number - 1;\ncamera { perspective location Frames[F][0] direction Frames[F][1]"
 			" right Frames[F][2] up Frames[F][3] " << Placement(camera) << " }\n";
 	file.close();
-	RunPovray(stock, work, "frames.pov", "frame.exr", width, height, {"+KFI1", "+KFF" + std::to_string(frames)});
+	RunPovray(stock, work, "frames.pov", "frame.exr", WIDTH, HEIGHT, {"+KFI1", "+KFF" + std::to_string(frames)});
 	Picture sum;
 	const int digits = int(std::to_string(frames).size());
 	for (int i = 1; i <= frames; ++i)
@@ -153,14 +153,14 @@ Picture MeanOfPinholes(const Camera& camera, const fs::path& scene, const fs::pa
 {
 	// POV-Ray sleeps through most of a short frame, hence several processes at once even on one core.
 	std::vector<std::future<Picture>> batches;
-	for (int b = 0; b < processes; ++b)
+	for (int b = 0; b < PROCESSES; ++b)
 		batches.push_back(std::async(std::launch::async, SumOfPinholes, camera, scene, work / ("batch" + std::to_string(b)),
-			stock, 1 + b * (frames / processes), frames / processes));
+			stock, 1 + b * (frames / PROCESSES), frames / PROCESSES));
 	Picture halves[2];
-	for (int b = 0; b < processes; ++b)
+	for (int b = 0; b < PROCESSES; ++b)
 	{
 		const Picture sum = batches[std::size_t(b)].get();
-		Picture& half = halves[2 * b / processes];
+		Picture& half = halves[2 * b / PROCESSES];
 		if (half.rgb.empty())
 			half = {sum.width, sum.height, std::vector<double>(sum.rgb.size(), 0.0)};
 		for (std::size_t k = 0; k < sum.rgb.size(); ++k)
@@ -179,7 +179,7 @@ std::string TiltLensCamera(const Camera& camera, int samples)
 		<< "\n\t\timage_distance " << camera.image_distance << "\n\t\taperture_diameter " << camera.aperture_diameter
 		<< "\n\t\ttilt_direction " << camera.tilt_direction << "\n\t\t"
 		<< (camera.tilts_lens ? "lens_tilt " : "focal_plane_tilt ") << camera.tilt << "\n\t}\n\tlocation "
-		<< Sdl(camera.location) << " right x * " << aspect << " up y";
+		<< Sdl(camera.location) << " right x * " << ASPECT << " up y";
 	if (camera.angle > 0)
 		out << " angle " << camera.angle;
 	out << "\n\tlook_at " << Sdl(camera.look_at) << "\n\t" << camera.moves << "\n\tblur_samples " << samples
@@ -189,9 +189,13 @@ std::string TiltLensCamera(const Camera& camera, int samples)
 
 }
 
-// The limit. A picture of n samples per pixel has an error of its own. Measured on these cases, with 2048 frames for
-// the truth: LIMITNOTE
-constexpr double limit = 0.006;
+// The limits. At 512 frames the mean of pinholes has an error of its own of 0.0011 to 0.0016, and 256 samples of the
+// camera leave about as much: measured differences are 0.0016 to 0.0023, and LIMIT is the issue's. It catches a
+// mirrored tilt (0.012 to 0.035), but a lens 5 % too wide (0.0023) or a shift of 0.1 pixel (0.0029) hides in the noise.
+// Means over 4 x 4 pixels have less of it: right 0.0005 to 0.0007; too wide 0.0011 to 0.0025, shifted 0.0012 to 0.0016.
+constexpr double LIMIT = 0.006;
+constexpr int CELL = 4;
+constexpr double CELL_LIMIT = 0.001;
 
 int main(int argc, char** argv)
 try
@@ -214,7 +218,7 @@ try
 		else if (word == "--ours") ours = value;
 		else if (word == "--scene") scene = value;
 		else if (word == "--work") work = value;
-		else if (word == "--frames") frames = (std::stoi(value) + processes - 1) / processes * processes;
+		else if (word == "--frames") frames = (std::stoi(value) + PROCESSES - 1) / PROCESSES * PROCESSES;
 		else if (word == "--samples") samples = std::stoi(value);
 		else throw std::runtime_error("unknown option " + word);
 	}
@@ -224,13 +228,16 @@ try
 			continue;
 		fs::create_directories(work);
 		std::ofstream(work / "ours.pov") << "#include \"" << scene.string() << "\"\n" << TiltLensCamera(camera, samples);
-		RunPovray(ours, work, "ours.pov", "ours.exr", width, height);
+		RunPovray(ours, work, "ours.pov", "ours.exr", WIDTH, HEIGHT);
 		double standard_error = 0;
 		const Picture truth = MeanOfPinholes(camera, scene, work, stock, frames, standard_error);
-		const double rms = RmsDifference(ReadExr((work / "ours.exr").string()), truth);
-		std::printf("%s: RMS difference %.5f, limit %.5f; the oracle's own error about %.5f (%d frames)\n", name.c_str(), rms,
-			limit, standard_error, frames);
-		return rms <= limit ? 0 : 1;
+		const Picture picture = ReadExr((work / "ours.exr").string());
+		const double rms = RmsDifference(picture, truth);
+		const double cell_rms = RmsDifference(Coarser(picture, CELL), Coarser(truth, CELL));
+		std::printf("%s: RMS difference %.5f (limit %.5f), of %d x %d means %.5f (limit %.5f); "
+			"the oracle's own error about %.5f with %d frames\n",
+			name.c_str(), rms, LIMIT, CELL, CELL, cell_rms, CELL_LIMIT, standard_error, frames);
+		return rms <= LIMIT && cell_rms <= CELL_LIMIT ? 0 : 1;
 	}
 	throw std::runtime_error("no case '" + name + "'");
 }

@@ -29,6 +29,20 @@ Picture ReadExr(const std::string& path)
 	return picture;
 }
 
+Picture Coarser(const Picture& picture, int size)
+{
+	Picture coarse;
+	coarse.width = picture.width / size;
+	coarse.height = picture.height / size;
+	coarse.rgb.assign(3 * std::size_t(coarse.width) * std::size_t(coarse.height), 0.0);
+	for (int y = 0; y < coarse.height * size; ++y)
+		for (int x = 0; x < coarse.width * size; ++x)
+			for (int c = 0; c < 3; ++c)
+				coarse.rgb[std::size_t(3 * (y / size * coarse.width + x / size) + c)] +=
+					picture.rgb[std::size_t(3 * (y * picture.width + x) + c)] / (size * size);
+	return coarse;
+}
+
 static void NeedEqualSizes(const Picture& a, const Picture& b)
 {
 	if (a.width != b.width || a.height != b.height)

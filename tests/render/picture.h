@@ -14,6 +14,9 @@ struct Picture
 // Throws std::exception when the file cannot be read.
 Picture ReadExr(const std::string& path);
 
+// Means of cells of `size` by `size` pixels; what does not fill a cell is left out. Noise fades there, a wrong lens does not.
+Picture Coarser(const Picture& picture, int size);
+
 // Both throw std::runtime_error when the sizes differ.
 double RmsDifference(const Picture& a, const Picture& b);
 double LargestDifference(const Picture& a, const Picture& b);

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "calibrate.h"
+
+#include "error.h"
+#include "files.h"
+#include "measure.h"
+#include "solve_blur.h"
+#include "solve_geometry.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <tilt_lens/optics.h>
+
+#include <algorithm>
+
+namespace tiltcal
+{
+
+namespace
+{
+
+/// Above this a picture rendered without distortion is visibly not the photograph, px.
+const double PINHOLE_RMS = 0.4;
+
+void LogPhoto(const Photo& photo, size_t number, size_t total)
+{
+	double least = 1e9, most = 0;
+	for (const Edge& e : photo.edges)
+	{
+		least = std::min(least, e.blur);
+		most = std::max(most, e.blur);
+	}
+	if (photo.edges.empty())
+		least = 0;
+	spdlog::info("[{}/{}] {}: {} corners, {} edges, blur {:.1f} to {:.1f} px", number, total, photo.file,
+		photo.corners.size(), photo.edges.size(), least, most);
+	if (photo.edges_dropped > 0)
+		spdlog::warn("{}: {} of {} edges left out, blurred into their neighbours or too noisy", photo.file, photo.edges_dropped,
+			photo.edges_dropped + int(photo.edges.size()));
+	if (photo.saturated_share > 0.05)
+		spdlog::warn("{}: {:.0f} % of the edges have a clipped bright side, which narrows their blur: expose less", photo.file, 100 * photo.saturated_share);
+}
+
+/// All pictures come from one sensor.
+void CheckSize(Task& task, const Photo& photo)
+{
+	if (task.width == 0)
+	{
+		task.width = photo.width;
+		task.height = photo.height;
+	}
+	if (photo.width != task.width || photo.height != task.height)
+		throw Refused(fmt::format("{}: is {}x{} pixels, the photographs before it are {}x{}; all must come from the same camera, uncropped and not turned",
+			photo.file, photo.width, photo.height, task.width, task.height));
+}
+
+std::vector<Vec3<double>> LensNormals(const Solution& s)
+{
+	std::vector<Vec3<double>> normals;
+	for (const StateLens& lens : s.states)
+		normals.push_back(tilt_lens::LensFromPlane(lens.q, 1 / s.w_mm.value).normal);
+	return normals;
+}
+
+/// A photograph whose corners disagree with the rest is of another camera or board, or
+/// was cropped; it should not be averaged in unnoticed.
+void WarnOfOddPhotos(const Task& task, const Geometry& g)
+{
+	std::vector<double> all;
+	for (const auto& state : g.photo_rms)
+		all.insert(all.end(), state.begin(), state.end());
+	std::nth_element(all.begin(), all.begin() + long(all.size() / 2), all.end());
+	const double median = all[all.size() / 2];
+	for (size_t s = 0; s < g.photo_rms.size(); ++s)
+		for (size_t p = 0; p < g.photo_rms[s].size(); ++p)
+			if (g.photo_rms[s][p] > 5 * median + 0.3)
+				spdlog::warn("{}: its corners fit badly ({:.2f} px, others {:.2f} px): is it of the same camera and board?",
+					task.states[s].photos[p].file, g.photo_rms[s][p], median);
+}
+
+bool SameCounts(const Task& task)
+{
+	for (const State& state : task.states)
+		if (state.photos.size() != task.states[0].photos.size())
+			return false;
+	return true;
+}
+
+/// A board that was moved between the states shows as a reprojection error of many
+/// pixels; the little that the pupil moves when the lens tilts does not double it.
+bool PosesAreShared(const Task& task, const std::vector<Vec3<double>>& normals, Poses poses)
+{
+	if (task.states.size() < 2 || poses == Poses::OWN)
+		return false;
+	if (!SameCounts(task))
+	{
+		if (poses == Poses::SHARED)
+			throw Refused("--poses shared: the states have different numbers of photographs");
+		return false;
+	}
+	if (poses == Poses::SHARED)
+		return true;
+	const double own = SolveGeometry(task, { 2, normals, false }).rms, shared = SolveGeometry(task, { 2, normals, true }).rms;
+	const bool same = shared < 2 * own + 0.1;
+	spdlog::info("board poses {} between the states: reprojection {:.3f} px if shared, {:.3f} px with own poses", same ? "shared" : "differ", shared, own);
+	return same;
+}
+
+/// The exact model. The distortion turns with the lens, so lens and geometry are solved
+/// in turn: the lens moves the distortion's axis, the geometry hardly moves the lens.
+void SolveExact(const Task& task, Poses poses, Calibration& c)
+{
+	spdlog::info("solving geometry and lens (plane)");
+	c.geometry = SelectGeometry(task, {});
+	c.solution = SolvePlane(task, c.geometry);
+	GeometryOptions options{ 0, LensNormals(c.solution), false };
+	options.shared_poses = PosesAreShared(task, options.lens_normal, poses);
+	for (int round = 0; round < 2; ++round)
+	{
+		c.geometry = SelectGeometry(task, options);
+		c.solution = SolvePlane(task, c.geometry);
+		options.lens_normal = LensNormals(c.solution);
+	}
+	c.pinhole = SolveGeometry(task, { 0, {}, options.shared_poses });
+	c.render = c.geometry.distortion_terms ? SolvePlane(task, c.pinhole) : c.solution;
+}
+
+}
+
+Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, double pitch_mm, const Transfer& transfer, const DetectOptions& options)
+{
+	Task task;
+	task.board = board;
+	task.pitch_mm = pitch_mm;
+	size_t total = 0, number = 0;
+	for (const StateFiles& s : states)
+		total += s.files.size();
+	for (const StateFiles& s : states)
+	{
+		State state;
+		state.name = s.name;
+		state.tilted = !task.states.empty();
+		for (const std::string& file : s.files)
+		{
+			Photo photo = MeasurePhoto(file, board, transfer, options);
+			LogPhoto(photo, ++number, total);
+			CheckSize(task, photo);
+			state.photos.push_back(std::move(photo));
+		}
+		task.states.push_back(std::move(state));
+	}
+	return task;
+}
+
+Calibration Calibrate(const Task& task, const std::string& model, Poses poses)
+{
+	Calibration c;
+	c.task = task;
+	if (model == "plane")
+		SolveExact(task, poses, c);
+	else
+		c.geometry = c.pinhole = SolveGeometry(task, {});
+	WarnOfOddPhotos(task, c.geometry);
+	double worst = 0;
+	for (const auto& state : c.pinhole.photo_rms)
+		worst = std::max(worst, *std::max_element(state.begin(), state.end()));
+	spdlog::info("reprojection: {:.3f} px with {} distortion terms (w {:.3f} mm), {:.3f} px without (w {:.3f} mm)", c.geometry.rms,
+		c.geometry.distortion_terms, c.geometry.w_px * task.pitch_mm, c.pinhole.rms, c.pinhole.w_px * task.pitch_mm);
+	if (worst > PINHOLE_RMS)
+		spdlog::warn("a render without this lens's distortion misses the corners of the worst photograph by {:.2f} px RMS", worst);
+
+	spdlog::info("solving the lens (paper)");
+	c.paper = SolvePaper(task, c.pinhole, c.paper_geometry);
+	if (!c.paper.failure.empty())
+	{
+		if (model == "paper")
+			throw Refused(c.paper.failure);
+		spdlog::warn("the paper's model, for comparison, gave no answer: {}", c.paper.failure);
+	}
+	if (model == "paper")
+		c.solution = c.render = c.paper;
+	return c;
+}
+
+const Geometry& MainGeometry(const Calibration& c)
+{
+	return c.solution.model == "paper" ? c.paper_geometry : c.geometry;
+}
+
+const Geometry& RenderGeometry(const Calibration& c)
+{
+	return c.solution.model == "paper" ? c.paper_geometry : c.pinhole;
+}
+
+}

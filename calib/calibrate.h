@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#ifndef TILTCAL_CALIBRATE_H
+#define TILTCAL_CALIBRATE_H
+
+#include "calibration.h"
+#include "detect.h"
+#include "transfer.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tiltcal
+{
+
+struct StateFiles
+{
+	std::string name;
+	std::vector<std::string> files;
+};
+
+/// Measures every photograph, with progress on the log. States come out in the order
+/// given; the first is the untilted one. Throws Error: unreadable, no board, sizes differ.
+Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, double pitch_mm,
+	const Transfer& transfer, const DetectOptions& options);
+
+/// Whether photograph n shows the board in the same pose in every state.
+enum class Poses
+{
+	AUTO,     ///< shared when the counts agree and the corners do too
+	SHARED,
+	OWN
+};
+
+/// Solves everything. `model` is "plane" or "paper"; the paper's model is always solved
+/// too, and only refused when it was the one asked for. Throws Refused.
+Calibration Calibrate(const Task& task, const std::string& model, Poses poses);
+
+/// Geometry that belongs to the calibration's own solution (the paper has its own).
+const Geometry& MainGeometry(const Calibration& calibration);
+
+/// The camera that the .inc holds: without distortion.
+const Geometry& RenderGeometry(const Calibration& calibration);
+
+}
+
+#endif

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "commands.h"
+
+#include "calibrate.h"
+#include "error.h"
+#include "files.h"
+#include "write_report.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <cctype>
+#include <chrono>
+#include <memory>
+#include <set>
+
+namespace tiltcal
+{
+
+namespace
+{
+
+struct Options
+{
+	std::string board, transfer = "srgb", model = "plane", poses = "auto", out;
+	double square = 0, pitch = 0;
+	std::vector<std::string> untilted, tilted;
+	DetectOptions detect;
+};
+
+/// NAME becomes part of POV-Ray identifiers and of file names.
+void CheckName(const std::string& name, const std::string& option)
+{
+	bool good = !name.empty() && !std::isdigit(static_cast<unsigned char>(name[0]));
+	for (const char c : name)
+		good = good && (std::isalnum(static_cast<unsigned char>(c)) || c == '_');
+	if (!good)
+		throw UsageError(fmt::format("--tilted {}: give NAME='GLOB', NAME of letters, digits and _ and not beginning with a digit, such as plus5='plus5-*.png'", option));
+}
+
+std::vector<StateFiles> States(const Options& o)
+{
+	std::vector<StateFiles> states{ { "untilted", ExpandGlobs(o.untilted, "--untilted") } };
+	std::set<std::string> names{ "untilted" };
+	for (const std::string& option : o.tilted)
+	{
+		const size_t equals = option.find('=');
+		CheckName(equals == std::string::npos ? "" : option.substr(0, equals), option);
+		const std::string name = option.substr(0, equals);
+		if (!names.insert(name).second)
+			throw UsageError(fmt::format("--tilted {}: the name '{}' is already taken; give every state its own", option, name));
+		states.push_back({ name, ExpandGlobs({ option.substr(equals + 1) }, "--tilted " + name) });
+	}
+	return states;
+}
+
+void CheckModel(const std::string& model)
+{
+	if (model == "rigid" || model == "curved")
+		throw UsageError(fmt::format("--model {}: not built into this version; it has plane and paper", model));
+	if (model != "plane" && model != "paper")
+		throw UsageError(fmt::format("--model {}: there is plane (exact) and paper", model));
+}
+
+Poses ParsePoses(const std::string& text)
+{
+	if (text == "auto")
+		return Poses::AUTO;
+	if (text == "shared")
+		return Poses::SHARED;
+	if (text == "own")
+		return Poses::OWN;
+	throw UsageError(fmt::format("--poses {}: give auto, shared or own", text));
+}
+
+void Run(const Options& o)
+{
+	const auto start = std::chrono::steady_clock::now();
+	const Board board = ParseBoard(o.board, o.square);
+	const Transfer transfer = ParseTransfer(o.transfer);
+	CheckModel(o.model);
+	const Poses poses = ParsePoses(o.poses);
+	if (!(o.pitch > 0 && o.pitch < 1))
+		throw UsageError(fmt::format("--pitch {}: give the distance of pixel centres on the sensor in mm, such as 0.00655", o.pitch));
+	const std::vector<StateFiles> states = States(o);
+	PrepareFolder(o.out);
+
+	const Calibration c = Calibrate(MeasureAll(states, board, o.pitch, transfer, o.detect), o.model, poses);
+	WriteEverything(c, transfer, o.out);
+	fmt::print("{}", SummaryTable(c));
+	fmt::print("written to {}\n", o.out);
+	spdlog::info("done in {:.1f} s", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+}
+
+}
+
+void AddCalibrate(CLI::App& app)
+{
+	auto o = std::make_shared<Options>();
+	CLI::App* c = app.add_subcommand("calibrate", "Photographs of a checkerboard in, camera blocks for tilt_lens out.");
+	c->add_option("--board", o->board, "Squares of the board, columns x rows, such as 12x9 (squares, not inner corners)")->required();
+	c->add_option("--square", o->square, "Side of a square, mm")->required();
+	c->add_option("--pitch", o->pitch, "Distance of pixel centres on the sensor, mm")->required();
+	c->add_option("--untilted", o->untilted, "Photographs with the lens untilted: names or quoted patterns")->required();
+	c->add_option("--tilted", o->tilted, "NAME='GLOB': photographs of one tilted state; may be repeated");
+	c->add_option("--model", o->model, "plane: exact, free plane of focus per state; paper: Baba, Nakane, Hiura (3), (4), (1)")->capture_default_str();
+	c->add_option("--transfer", o->transfer, "Transfer curve of 8 and 16 bit pictures: srgb, linear or a gamma; OpenEXR is linear")->capture_default_str();
+	c->add_option("--poses", o->poses, "shared: photograph n shows the board in one pose in every state; own: not; auto: see for itself")->capture_default_str();
+	c->add_flag("--any-orientation", o->detect.any_orientation, "Accept a board that stands upside down (a mirrored picture looks the same)");
+	c->add_option("--out", o->out, "Folder for calibration.json, camera-<state>.inc, overlays and report; created if missing")->required();
+	c->footer("Example:\n  tiltcal calibrate --board 12x9 --square 25 --pitch 0.02 --untilted 'target/untilted-*.png' \\\n"
+		"      --tilted plus5='target/plus5-*.png' --tilted minus5='target/minus5-*.png' --out calibration\n\n"
+		"Photograph the board inclined by 20 to 45 degrees in several directions, with parts before and\n"
+		"behind the plane of focus. Lengths are mm, angles degrees, picture measures pixels.\n"
+		"Exit codes: 0 done, 1 refused or not converged, 2 wrong usage, 3 unreadable or unwritable file.");
+	c->callback([o] { Run(*o); });
+}
+
+}

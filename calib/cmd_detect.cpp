@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "commands.h"
+
+#include "error.h"
+#include "files.h"
+#include "measure.h"
+#include "write_csv.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <filesystem>
+#include <memory>
+
+namespace tiltcal
+{
+
+namespace
+{
+
+struct Options
+{
+	std::string board, transfer = "srgb", csv;
+	std::vector<std::string> photos;
+	DetectOptions detect;
+};
+
+/// FILE with -edges before the suffix.
+std::string EdgesName(const std::string& file)
+{
+	const std::filesystem::path path(file);
+	return (path.parent_path() / (path.stem().string() + "-edges" + path.extension().string())).string();
+}
+
+void Run(const Options& o)
+{
+	// The side of a square plays no part in pixels.
+	const Board board = ParseBoard(o.board, 1);
+	const Transfer transfer = ParseTransfer(o.transfer);
+	const std::vector<std::string> files = ExpandGlobs(o.photos, "PHOTO");
+	const std::string folder = std::filesystem::path(o.csv).parent_path().string();
+	PrepareFolder(folder.empty() ? "." : folder);
+	std::vector<Photo> photos;
+	for (const std::string& file : files)
+	{
+		photos.push_back(MeasurePhoto(file, board, transfer, o.detect));
+		const Photo& p = photos.back();
+		spdlog::info("[{}/{}] {}: {} corners, {} edges", photos.size(), files.size(), file, p.corners.size(), p.edges.size());
+		fmt::print("{}: {} corners, {} edges, {} edges left out\n", file, p.corners.size(), p.edges.size(), p.edges_dropped);
+	}
+	WriteText(o.csv, CornersCsv(photos));
+	WriteText(EdgesName(o.csv), EdgesCsv(photos));
+}
+
+}
+
+void AddDetect(CLI::App& app)
+{
+	auto o = std::make_shared<Options>();
+	CLI::App* c = app.add_subcommand("detect", "Corners of a checkerboard and blur widths of its edges, as CSV.");
+	c->add_option("--board", o->board, "Squares of the board, columns x rows, such as 12x9 (squares, not inner corners)")->required();
+	c->add_option("photos", o->photos, "PHOTO...: pictures, names or quoted patterns")->required();
+	c->add_option("--csv", o->csv, "FILE for the corners; the edges go to FILE with -edges before the suffix")->required();
+	c->add_option("--transfer", o->transfer, "Transfer curve of 8 and 16 bit pictures: srgb, linear or a gamma; OpenEXR is linear")->capture_default_str();
+	c->add_flag("--any-orientation", o->detect.any_orientation, "Accept a board that stands upside down (a mirrored picture looks the same)");
+	c->footer("Example:\n  tiltcal detect --board 12x9 'target/untilted-*.png' --csv corners.csv\n\n"
+		"Columns: file,column,row,x_px,y_px,sigma_px and file,x_px,y_px,nx,ny,blur_px,sigma_px;\n"
+		"pixel centres at integers, (0, 0) top left, y downwards.\n"
+		"Exit codes: 0 done, 1 refused, 2 wrong usage, 3 unreadable or unwritable file.");
+	c->callback([o] { Run(*o); });
+}
+
+}

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "gnuplot.h"
+
+#include "error.h"
+#include "files.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <csignal>
+#include <cstdio>
+
+namespace tiltcal
+{
+
+std::string GnuplotString(const std::string& text)
+{
+	std::string quoted = "'";
+	for (const char c : text)
+		quoted += c == '\'' ? "''" : std::string(1, c);
+	return quoted + "'";
+}
+
+bool Plot(const std::string& file, const std::string& script, int width, int height)
+{
+	try
+	{
+		WriteAtomically(file, [&](const std::string& temporary)
+		{
+			// A gnuplot that is not there closes the pipe at once.
+			const auto previous = std::signal(SIGPIPE, SIG_IGN);
+			FILE* pipe = popen("gnuplot 2>/dev/null >/dev/null", "w");
+			if (!pipe)
+				return false;
+			const std::string whole = fmt::format("set encoding utf8\nset terminal pngcairo size {},{} font 'Sans,11' noenhanced\nset output {}\n{}\n",
+				width, height, GnuplotString(temporary), script);
+			std::fwrite(whole.data(), 1, whole.size(), pipe);
+			const bool good = pclose(pipe) == 0;
+			std::signal(SIGPIPE, previous);
+			return good;
+		});
+		return true;
+	}
+	catch (const Error& e)
+	{
+		spdlog::warn("{}: not plotted; install gnuplot-nox for plots", file);
+		return false;
+	}
+}
+
+}

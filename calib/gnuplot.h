@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#ifndef TILTCAL_GNUPLOT_H
+#define TILTCAL_GNUPLOT_H
+
+#include <string>
+
+namespace tiltcal
+{
+
+/// Runs gnuplot on `script` (terminal and output are set here) and leaves the PNG in
+/// `file`, atomically. Returns false, with a warning on the log, when gnuplot is missing
+/// or fails: a plot is an extra, not a reason to lose the results.
+bool Plot(const std::string& file, const std::string& script, int width, int height);
+
+/// Text as a gnuplot string in single quotes.
+std::string GnuplotString(const std::string& text);
+
+}
+
+#endif

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "write_inc.h"
+
+#include "calibrate.h"
+#include "files.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace tiltcal
+{
+
+namespace
+{
+
+std::string Declare(const std::string& prefix, const std::string& name, const Estimate& e, const std::string& comment)
+{
+	// POV-Ray has no infinity; a focus at 1e30 mm is one.
+	const double value = std::isfinite(e.value) ? e.value : 1e30;
+	return fmt::format("#declare {}_{} = {:.10g};   // +- {:.2g} {}\n", prefix, name, value, e.sigma, comment);
+}
+
+std::string Vector(const Vec3<double>& v) { return fmt::format("<{:.9g}, {:.9g}, {:.9g}>", v.x, v.y, v.z); }
+
+/// The camera's place in the board frame: location -R^T t, look_at along R^T e_z, sky R^T e_y.
+std::string PhotoPose(const std::string& prefix, size_t number, const Photo& photo, const Pose& pose)
+{
+	double R[9];
+	ceres::AngleAxisToRotationMatrix(pose.data(), R);   // column-major: R[3 c + r]
+	const auto back = [&](double x, double y, double z)
+	{
+		return Vec3<double>{ R[0] * x + R[1] * y + R[2] * z, R[3] * x + R[4] * y + R[5] * z, R[6] * x + R[7] * y + R[8] * z };
+	};
+	const Vec3<double> location = back(-pose[3], -pose[4], -pose[5]);
+	const Vec3<double> forward = back(0, 0, 1000);
+	const std::string name = fmt::format("{}_Photo_{}", prefix, number);
+	return fmt::format("// {}\n#declare {}_Location = {};\n#declare {}_Look_At = {};\n#declare {}_Sky = {};\n", BaseName(photo.file),
+		name, Vector(location), name, Vector(location + forward), name, Vector(back(0, 1, 0)));
+}
+
+/// Every number of one camera.
+std::string Numbers(const Calibration& c, const Solution& solution, const Geometry& g, size_t s, const std::string& prefix)
+{
+	const StateLens& lens = solution.states[s];
+	const double pitch = c.task.pitch_mm;
+	const Point& cp = g.principal_point[s];
+	const Point& cs = g.principal_point_sigma[s];
+	std::string out;
+	out += Declare(prefix, "Image_Distance", solution.w_mm, "mm");
+	out += Declare(prefix, "Aperture_Diameter", solution.aperture_diameter, "mm");
+	out += Declare(prefix, "Focus_Distance", lens.focus_distance, "mm, along the axis");
+	out += Declare(prefix, "Focal_Length", lens.focal_length, "mm");
+	out += Declare(prefix, "Focal_Plane_Tilt", lens.focal_plane_tilt, "degrees");
+	out += Declare(prefix, "Tilt_Direction", lens.tilt_direction, "degrees, 0 = recedes towards picture up, 90 = right");
+	out += Declare(prefix, "Lens_Tilt", lens.lens_tilt, "degrees");
+	// The direction of the picture's centre is <SX, SY, W> in camera axes.
+	out += Declare(prefix, "Shift_X", { (0.5 * (c.task.width - 1) - cp[0]) * pitch, cs[0] * pitch }, "mm");
+	out += Declare(prefix, "Shift_Y", { -(0.5 * (c.task.height - 1) - cp[1]) * pitch, cs[1] * pitch }, "mm");
+	out += Declare(prefix, "Principal_Point_X", { cp[0], cs[0] }, "px");
+	out += Declare(prefix, "Principal_Point_Y", { cp[1], cs[1] }, "px");
+	out += Declare(prefix, "Psf_Floor", solution.psf_floor_px, "px, the lens's own blur, not rendered");
+	const char* const names[] = { "K1", "K2", "P1", "P2", "K3" };
+	for (size_t k = 0; k < 5; ++k)
+		out += Declare(prefix, names[k], { g.distortion[k], g.distortion_sigma[k] }, "");
+	out += fmt::format("#declare {}_Photos = {};\n", prefix, c.task.states[s].photos.size());
+	const size_t photos = c.task.states[s].photos.size();
+	for (size_t p = 0; p < photos; ++p)
+		out += PhotoPose(prefix, p + 1, c.task.states[s].photos[p], g.poses[s][p]);
+	for (const char* const part : { "Location", "Look_At", "Sky" })
+	{
+		out += fmt::format("#declare {}_Photo_{} = array[{}] {{", prefix, part, photos);
+		for (size_t p = 0; p < photos; ++p)
+			out += fmt::format("{} {}_Photo_{}_{}", p ? "," : "", prefix, p + 1, part);
+		out += " };\n";
+	}
+	return out;
+}
+
+std::string Macro(const Calibration& c, const std::string& p, bool distorted)
+{
+	const std::string distortion = distorted ? fmt::format(
+		"#if (TiltCal_Distortion)\n\t\t\tdistortion {0}_K1, {0}_K2, {0}_P1, {0}_P2, {0}_K3\n#end\n", p) : "";
+	return fmt::format(
+		"// Location is the lens centre. Look_At lies on the axis, that is, at the principal\n"
+		"// point, which the shift puts beside the picture's centre. Sky as for any camera.\n"
+		"#macro {0}(Location, Look_At, Sky)\n"
+		"\tcamera {{\n"
+		"\t\ttilt_lens {{\n"
+		"\t\t\tfocal_plane_tilt {0}_Focal_Plane_Tilt\n"
+		"\t\t\ttilt_direction {0}_Tilt_Direction\n"
+		"\t\t\tfocal_distance {0}_Focus_Distance\n"
+		"\t\t\timage_distance {0}_Image_Distance\n"
+		"\t\t\tshift <{0}_Shift_X, {0}_Shift_Y>\n"
+		"\t\t\taperture_diameter {0}_Aperture_Diameter\n"
+		"{1}"
+		"\t\t}}\n"
+		"\t\tlocation Location\n"
+		"\t\tdirection {0}_Image_Distance*z\n"
+		"\t\tright {2:.10g}*x\n"
+		"\t\tup {3:.10g}*y\n"
+		"\t\tsky Sky\n"
+		"\t\tlook_at Look_At\n"
+		"\t\tblur_samples TiltCal_Blur_Samples\n"
+		"\t\tvariance 0\n"
+		"\t}}\n"
+		"#end\n\n"
+		"// The camera of this state's photograph N (1, 2, ...), in the board's frame.\n"
+		"#macro {0}_Pose(N)\n"
+		"\t{0}({0}_Photo_Location[N - 1], {0}_Photo_Look_At[N - 1], {0}_Photo_Sky[N - 1])\n"
+		"#end\n", p, distortion, c.task.width * c.task.pitch_mm, c.task.height * c.task.pitch_mm);
+}
+
+}
+
+std::string CameraInc(const Calibration& c, size_t s)
+{
+	const std::string& name = c.task.states[s].name;
+	const std::string p = "TiltCal_" + name;
+	const bool distorted = MainGeometry(c).distortion_terms > 0;
+	std::string out = fmt::format(
+		"// camera-{}.inc, written by tiltcal {} (model {}). World unit: 1 mm.\n"
+		"// Render at {} x {} pixels or any size of this aspect ratio.\n"
+		"// World of the photographs' poses: origin at the board's first inner corner, x along\n"
+		"// the columns, y up the rows, z into the board.\n"
+		"// Reprojection: {:.3f} px RMS {}.\n\n"
+		"#ifndef (TiltCal_Blur_Samples)\n\t#declare TiltCal_Blur_Samples = 128;\n#end\n",
+		name, TILTCAL_VERSION, c.solution.model, c.task.width, c.task.height, RenderGeometry(c).rms,
+		distorted ? fmt::format("without distortion, {:.3f} px with it", MainGeometry(c).rms) : "without distortion, which this lens does not need");
+	if (distorted)
+		out += "// 1: the camera with the lens's distortion, for a tilt_lens that knows `distortion`;\n"
+			"// it acts about the tilted lens axis. 0: the best camera without it.\n"
+			"#ifndef (TiltCal_Distortion)\n\t#declare TiltCal_Distortion = 0;\n#end\n\n"
+			"#if (TiltCal_Distortion)\n\n" + Numbers(c, c.solution, MainGeometry(c), s, p) + "\n#else\n\n";
+	out += Numbers(c, c.render, RenderGeometry(c), s, p);
+	if (distorted)
+		out += "\n#end\n\n";
+	return out + Macro(c, p, distorted);
+}
+
+}

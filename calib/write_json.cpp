@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "write_json.h"
+
+#include "calibrate.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace tiltcal
+{
+
+namespace
+{
+
+// Ordered: people read this file.
+using Json = nlohmann::ordered_json;
+
+const double DEGREES = 180 / 3.14159265358979323846;
+
+/// name_unit and name_sigma_unit.
+void Put(Json& json, const std::string& name, const std::string& unit, const Estimate& e)
+{
+	const auto number = [](double x) { return std::isfinite(x) ? Json(x) : Json(); };
+	json[name + unit] = number(e.value);
+	json[name + "_sigma" + unit] = number(e.sigma);
+}
+
+Json RotationRows(const Pose& pose)
+{
+	double columns[9];
+	ceres::AngleAxisToRotationMatrix(pose.data(), columns);   // column-major
+	Json rows = Json::array();
+	for (int r = 0; r < 3; ++r)
+		rows.push_back({ columns[r], columns[r + 3], columns[r + 6] });
+	return rows;
+}
+
+Json PhotoJson(const Photo& photo, const Geometry& g, size_t s, size_t p)
+{
+	Json json;
+	const Pose& pose = g.poses[s][p];
+	const Pose& sigma = g.pose_sigmas[s][p];
+	json["file"] = photo.file;
+	json["rotation"] = RotationRows(pose);
+	json["rotation_sigma_deg"] = { sigma[0] * DEGREES, sigma[1] * DEGREES, sigma[2] * DEGREES };
+	json["translation_mm"] = { pose[3], pose[4], pose[5] };
+	json["translation_sigma_mm"] = { sigma[3], sigma[4], sigma[5] };
+	json["rms_reprojection_px"] = g.photo_rms[s][p];
+	json["edges"] = photo.edges.size();
+	json["edges_dropped"] = photo.edges_dropped;
+	return json;
+}
+
+Json StateJson(const Calibration& c, const Solution& solution, const Geometry& g, size_t s)
+{
+	const StateLens& lens = solution.states[s];
+	const State& state = c.task.states[s];
+	Json json;
+	json["name"] = state.name;
+	Put(json, "lens_tilt", "_deg", lens.lens_tilt);
+	Put(json, "tilt_direction", "_deg", lens.tilt_direction);
+	Put(json, "focal_plane_tilt", "_deg", lens.focal_plane_tilt);
+	Put(json, "focus_distance", "_mm", lens.focus_distance);
+	Put(json, "focal_length", "_mm", lens.focal_length);
+	json["principal_point_px"] = g.principal_point[s];
+	json["principal_point_sigma_px"] = g.principal_point_sigma[s];
+	json["principal_point_fixed"] = bool(g.principal_point_fixed[s]);
+	json["inverse_focus_per_mm"] = { lens.q.x, lens.q.y, lens.q.z };
+	json["inverse_focus_sigma_per_mm"] = { lens.q_sigma.x, lens.q_sigma.y, lens.q_sigma.z };
+	json["rms_blur_px"] = lens.rms_blur;
+	json["photos"] = Json::array();
+	for (size_t p = 0; p < state.photos.size(); ++p)
+		json["photos"].push_back(PhotoJson(state.photos[p], g, s, p));
+	return json;
+}
+
+Json SolutionJson(const Calibration& c, const Solution& solution, const Geometry& g)
+{
+	Json json;
+	json["model"] = solution.model;
+	Put(json, "image_distance", "_mm", solution.w_mm);
+	Put(json, "focal_length", "_mm", solution.focal_length);
+	Put(json, "focus_distance", "_mm", solution.focus_distance);
+	Put(json, "aperture_diameter", "_mm", solution.aperture_diameter);
+	json["principal_point_px"] = g.principal_point[0];
+	json["principal_point_sigma_px"] = g.principal_point_sigma[0];
+	const char* const names[] = { "k1", "k2", "p1", "p2", "k3" };
+	for (size_t k = 0; k < 5; ++k)
+	{
+		json["distortion"][names[k]] = g.distortion[k];
+		json["distortion"][std::string(names[k]) + "_sigma"] = g.distortion_sigma[k];
+	}
+	json["distortion_terms"] = g.distortion_terms;
+	json["distortion_axis"] = "lens axis";
+	json["shared_poses"] = g.shared_poses;
+	Put(json, "field_curvature", "_per_mm", {});
+	Put(json, "psf_floor", "_px", solution.psf_floor_px);
+	json["rms_reprojection_px"] = g.rms;
+	json["rms_blur_px"] = solution.rms_blur;
+	json["states"] = Json::array();
+	for (size_t s = 0; s < solution.states.size(); ++s)
+		json["states"].push_back(StateJson(c, solution, g, s));
+	return json;
+}
+
+}
+
+std::string CalibrationJson(const Calibration& c)
+{
+	Json json = SolutionJson(c, c.solution, MainGeometry(c));
+	json["image_size_px"] = { c.task.width, c.task.height };
+	json["pixel_pitch_mm"] = c.task.pitch_mm;
+	json["board"] = { { "squares", { c.task.board.columns, c.task.board.rows } }, { "square_mm", c.task.board.square_mm } };
+	json["frames"] = "camera: x right, y up, z forward; board: origin at the first inner corner, x along the columns, y up the rows, z into it; "
+		"X_camera = rotation X_board + translation_mm; pixel centres at integers, (0, 0) top left";
+	if (c.paper.failure.empty())
+		json["comparison"]["paper"] = SolutionJson(c, c.paper, c.paper_geometry);
+	else
+		json["comparison"]["paper"] = { { "failure", c.paper.failure } };
+	json["render"] = SolutionJson(c, c.render, RenderGeometry(c));
+	json["render"]["note"] = "the camera without distortion that the .inc files hold unless TiltCal_Distortion is set";
+	json["program"] = "tiltcal " TILTCAL_VERSION;
+	return json.dump(1, '\t') + "\n";
+}
+
+}

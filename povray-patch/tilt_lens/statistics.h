@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// What a tilt_lens render says about itself afterwards. Free of POV-Ray.
+
+#ifndef TILT_LENS_STATISTICS_H
+#define TILT_LENS_STATISTICS_H
+
+#include <cstdint>
+#include <string>
+
+#include "lens_spec.h"
+
+namespace tilt_lens
+{
+
+/// What one thread counted while tracing; added up over the threads.
+struct RenderCounts
+{
+	uint64_t pixels = 0;
+	uint64_t samples = 0;
+	unsigned int min_samples = ~0u;
+	unsigned int max_samples = 0;
+	double squared_error = 0.0;     ///< sum over the pixels of the estimated squared error
+
+	void AddPixel(unsigned int n, double error2)
+	{
+		pixels++;
+		samples += n;
+		if(n < min_samples)
+			min_samples = n;
+		if(n > max_samples)
+			max_samples = n;
+		squared_error += error2;
+	}
+
+	RenderCounts& operator+=(const RenderCounts& o);
+};
+
+/// Pixels by where they are in focus. `infinity`: kappa passes through 0 inside the
+/// pixel, so that no finite focus distance holds for all of it. `empty`: the pixel
+/// looks along or behind the lens plane.
+struct FocusCounts
+{
+	uint64_t front = 0, infinity = 0, behind = 0, empty = 0;
+
+	uint64_t All() const { return front + infinity + behind + empty; }
+};
+
+/// Pixel ranges are inclusive, (0, 0) is the top left pixel of width x height.
+FocusCounts CountFocus(const TiltLens& lens, const CameraVectors& camera,
+                       int width, int height, int left, int top, int right, int bottom);
+
+/// The block of text for the render statistics, in POV-Ray's format, without the
+/// rules above and below it. Distances in scene units.
+std::string StatisticsText(const TiltLens& lens, const FocusCounts& focus, const RenderCounts& counts);
+
+}
+
+#endif
