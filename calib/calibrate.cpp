@@ -162,6 +162,14 @@ Calibration Calibrate(const Task& task, const std::string& model, Poses poses)
 	else
 		c.geometry = c.pinhole = SolveGeometry(task, {});
 	WarnOfOddPhotos(task, c.geometry);
+	for (size_t k = 0; k < task.states.size(); ++k)
+		if (c.geometry.principal_point_fixed[k])
+			spdlog::warn("state {}: the photographs do not determine the principal point; it is kept at the picture's centre. "
+				"Photograph the board in more, differently inclined poses", task.states[k].name);
+	for (size_t k = 0; k < c.solution.states.size(); ++k)
+		if (c.solution.states[k].chosen_by_power)
+			spdlog::warn("state {}: the blur alone fits two planes of focus; the one that keeps the focal length was taken. "
+				"Photograph more poses to be sure", task.states[k].name);
 	double worst = 0;
 	for (const auto& state : c.pinhole.photo_rms)
 		worst = std::max(worst, *std::max_element(state.begin(), state.end()));

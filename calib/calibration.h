@@ -57,6 +57,7 @@ struct Geometry
 struct StateLens
 {
 	bool converged = true;
+	bool chosen_by_power = false;   ///< the blur fits two planes; the one that keeps f was taken
 	Vec3<double> q{ 0, 0, 0 }, q_sigma{ 0, 0, 0 };   ///< plane of focus, 1/mm
 	Estimate lens_tilt, focal_plane_tilt, tilt_direction, focus_distance, focal_length;
 	double rms_blur = 0;     ///< px, measured against predicted

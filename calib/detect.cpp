@@ -67,9 +67,11 @@ std::string WhatIsThere(const cv::Mat& picture, const Board& board)
 	cv::Mat meta;
 	const double scale = std::min(1.0, 900.0 / std::max(picture.cols, picture.rows));
 	FindAtScale(picture, cv::Size(3, 3), scale, cv::CALIB_CB_LARGER, &meta);
-	if (!meta.empty() && !(meta.cols == board.InnerColumns() && meta.rows == board.InnerRows()))
-		return fmt::format("it shows {}x{} squares; is --board {}x{} right (squares, not inner corners), and is the whole board in the picture?",
-			meta.cols + 1, meta.rows + 1, board.columns, board.rows);
+	// Small grids are found in any texture; they would mislead.
+	const int longer = std::max(meta.cols, meta.rows), shorter = std::min(meta.cols, meta.rows);
+	if (shorter >= 4 && !(longer == board.InnerColumns() && shorter == board.InnerRows()))
+		return fmt::format("it shows about {}x{} squares; is --board {}x{} right (squares, not inner corners), and is the whole board in the picture?",
+			longer + 1, shorter + 1, board.columns, board.rows);
 	return "show the whole board with its white margin, evenly lit, and keep the blur below a fifth of a square";
 }
 

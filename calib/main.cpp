@@ -4,6 +4,7 @@
 #include "error.h"
 
 #include <fmt/format.h>
+#include <glog/logging.h>
 #include <opencv2/core/utils/logger.hpp>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
@@ -27,6 +28,8 @@ int main(int argc, char** argv)
 	// Results go to stdout, everything else to stderr.
 	spdlog::set_default_logger(spdlog::stderr_logger_mt("tiltcal"));
 	spdlog::set_pattern("tiltcal: %v");
+	// What Ceres and OpenCV have to say is said in our own errors.
+	FLAGS_minloglevel = google::GLOG_FATAL;
 	cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
 
 	CLI::App app("tiltcal: calibrates a tilted lens from photographs of a checkerboard, for tilt_lens in POV-Ray.", "tiltcal");

@@ -181,11 +181,13 @@ bool MeasureEdge(const cv::Mat& grey, const Grid& grid, int i, int j, bool along
 	if (gap < 8 || axes.length < 8)
 		return false;
 
-	// The window depends on the blur: start from a guess, measure, choose again.
+	// The window depends on the blur: start from a guess, measure, choose again until
+	// the window fits the blur that was measured in it.
 	EdgeFit fit;
 	std::vector<EdgeSample> samples;
 	double radius = 0.12 * std::min(gap, axes.length);
-	for (int round = 0; round < 3; ++round)
+	bool settled = false;
+	for (int round = 0; round < 6 && !settled; ++round)
 	{
 		const double reach = std::min(gap - radius - 1.5, 1.5 * radius + 6);
 		if (reach < 1.1 * radius + 2)
@@ -194,11 +196,11 @@ bool MeasureEdge(const cv::Mat& grey, const Grid& grid, int i, int j, bool along
 		fit = FitEdge(samples, axes.normal.x(), axes.normal.y(), round == 0 ? 0.5 * radius : radius);
 		if (!fit.valid)
 			return false;
-		const bool settled = std::abs(fit.radius - radius) < 0.05 * radius + 0.1;
+		settled = std::abs(fit.radius - radius) < 0.05 * radius + 0.1;
 		radius = fit.radius;
-		if (settled)
-			break;
 	}
+	if (!settled || gap - radius - 1.5 < 1.1 * radius + 2)
+		return false;
 	if (std::abs(fit.offset) > 0.15 * gap || std::abs(fit.slope) > 0.1 || fit.radius_sigma > 0.25 * fit.radius + 0.5)
 		return false;
 

@@ -53,7 +53,7 @@ Ratios Collect(const cv::Mat& a, const cv::Mat& b, int order)
 		for (int x = 0; x < size.width; ++x)
 		{
 			const double va = small_a.at<float>(y, x), vb = small_b.at<float>(y, x);
-			if (vb < 0.02 * most || va <= 0 || va > 0.99 || vb > 0.99)
+			if (vb <= 0 || vb < 0.02 * most || va <= 0 || va > 0.99 || vb > 0.99)
 				continue;
 			ratios.push_back(va / vb);
 			terms.resize(terms.size() + n);

@@ -7,7 +7,6 @@
 #include <ceres/ceres.h>
 #include <fmt/format.h>
 #include <opencv2/calib3d.hpp>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cmath>
@@ -213,8 +212,6 @@ bool FixLoosePrincipalPoints(const Task& task, Geometry& g, ceres::Problem& prob
 			: task.states[s].photos.size() < 2 && (s == 0 || !g.shared_poses);
 		if (!loose || problem.IsParameterBlockConstant(block))
 			continue;
-		spdlog::warn("state {}: the photographs do not determine the principal point; it is kept at the picture's centre. "
-			"Photograph the board in more, differently inclined poses", task.states[s].name);
 		g.principal_point[s] = { 0.5 * (task.width - 1), 0.5 * (task.height - 1) };
 		problem.SetParameterBlockConstant(block);
 		g.principal_point_fixed[s] = true;

@@ -8,7 +8,6 @@
 
 #include <ceres/ceres.h>
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 #include <tilt_lens/optics.h>
 
 #include <algorithm>
@@ -34,12 +33,12 @@ struct BlurCost
 	double blur, weight, w_px;
 
 	template<typename T>
-	bool operator()(const T* d, const T* floor, const T* q, T* residual) const
+	bool operator()(const T* d, const T* floor_squared, const T* q, T* residual) const
 	{
 		using std::sqrt;
 		const T b = tilt_lens::SignedBlurWidth(T(w_px), *d, Vec3<T>{ q[0], q[1], q[2] }, Vec3<T>{ T(P.x), T(P.y), T(P.z) });
 		// The tiny constant keeps the root smooth where blur and floor both vanish.
-		residual[0] = weight * (sqrt(b * b + *floor * *floor + T(1e-6)) - blur);
+		residual[0] = weight * (sqrt(b * b + *floor_squared + T(1e-6)) - blur);
 		return true;
 	}
 };
@@ -48,14 +47,15 @@ using Plane = std::array<double, 3>;
 
 struct Unknowns
 {
-	double d = 0, floor = 1;
+	double d = 0;
+	double floor_squared = 1;  // px^2; squared, because the blur does not change with floor at 0
 	std::vector<Plane> q;      // per state
 };
 
 double Residual(const Observation& o, const Unknowns& x, double w_px)
 {
 	double r = 0;
-	BlurCost{ o.P, o.blur, 1, w_px }(&x.d, &x.floor, x.q[o.state].data(), &r);
+	BlurCost{ o.P, o.blur, 1, w_px }(&x.d, &x.floor_squared, x.q[o.state].data(), &r);
 	return r;
 }
 
@@ -87,14 +87,15 @@ struct Solver
 				continue;
 			const double weight = 1 / std::hypot(o.sigma, model_sigma);
 			auto* cost = new ceres::AutoDiffCostFunction<BlurCost, 1, 1, 1, 3>(new BlurCost{ o.P, o.blur, weight, w_px });
-			problem.AddResidualBlock(cost, new ceres::HuberLoss(2.0), &x.d, &x.floor, x.q[o.state].data());
+			problem.AddResidualBlock(cost, new ceres::HuberLoss(2.0), &x.d, &x.floor_squared, x.q[o.state].data());
 		}
+		problem.SetParameterLowerBound(&x.floor_squared, 0, 0);
 		if (free != ONE_STATE)
 			problem.SetManifold(x.q[0].data(), new ceres::SubsetManifold(3, { 0, 1 }));
 		else
 		{
 			problem.SetParameterBlockConstant(&x.d);
-			problem.SetParameterBlockConstant(&x.floor);
+			problem.SetParameterBlockConstant(&x.floor_squared);
 		}
 	}
 
@@ -111,7 +112,6 @@ struct Solver
 		ceres::Solver::Summary summary;
 		ceres::Solve(options, &problem, &summary);
 		x.d = std::abs(x.d);
-		x.floor = std::abs(x.floor);
 		return summary.IsSolutionUsable() ? summary.final_cost : 1e300;
 	}
 
@@ -137,16 +137,47 @@ struct Candidate
 	double cost;
 };
 
-/// Best first; refuses when another, different answer explains the blur as well.
-/// Costs are half chi-squares: a difference below 5 is 3 sigma.
-void RefuseAmbiguous(std::vector<Candidate>& candidates, size_t state, const std::string& name)
+/// Costs are half chi-squares of errors that are not independent: 20 rather than the 5
+/// that would be 3 sigma.
+const double SAME_COST = 20;
+
+void SortByCost(std::vector<Candidate>& candidates)
 {
 	std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
-	const Candidate& best = candidates.front();
+}
+
+/// The best one different from the best, if it explains the blur as well; else null.
+const Candidate* Rival(const std::vector<Candidate>& candidates, size_t state)
+{
 	for (const Candidate& other : candidates)
-		if (DifferenceOf(other.x.q[state], best.x.q[state]) > 0.05 && other.cost - best.cost < 5)
-			throw Refused(fmt::format("state {}: the blur fits two different planes of focus equally well. "
-				"Photograph boards that lie partly before and partly behind the plane of focus, inclined in several directions", name));
+		if (DifferenceOf(other.x.q[state], candidates.front().x.q[state]) > 0.05 && other.cost - candidates.front().cost < SAME_COST)
+			return &other;
+	return nullptr;
+}
+
+/// Tilting a lens does not change its power: the relative change that q asks for.
+double PowerChange(const Unknowns& x, size_t state, double w_mm)
+{
+	const auto power = [&](const Plane& q) { return tilt_lens::LensFromPlane(Vec3<double>{ q[0], q[1], q[2] }, 1 / w_mm).power; };
+	return std::abs(power(x.q[state]) / power(x.q[0]) - 1);
+}
+
+/// Two planes of focus explain the blur of one board equally well, q and its mirror image
+/// in the board: |1 - q.P| is the same. The focal length tells them apart when it can.
+/// `by_power` says that it had to.
+Unknowns Choose(const std::vector<Candidate>& candidates, size_t state, const std::string& name, double w_mm, bool& by_power)
+{
+	const Candidate* best = &candidates.front();
+	const Candidate* rival = Rival(candidates, state);
+	by_power = rival != nullptr;
+	if (!rival)
+		return best->x;
+	if (PowerChange(rival->x, state, w_mm) < PowerChange(best->x, state, w_mm))
+		std::swap(best, rival);
+	if (PowerChange(best->x, state, w_mm) > 0.01 || PowerChange(rival->x, state, w_mm) < 3 * PowerChange(best->x, state, w_mm))
+		throw Refused(fmt::format("state {}: the blur fits two different planes of focus equally well. "
+			"Photograph the board in more poses, inclined in several directions, partly before and partly behind the plane of focus", name));
+	return best->x;
 }
 
 void SolveUntilted(const Solver& solver, const Task& task, Unknowns& x)
@@ -164,12 +195,16 @@ void SolveUntilted(const Solver& solver, const Task& task, Unknowns& x)
 		c.cost = solver.Minimise(c.x, UNTILTED, 0);
 		candidates.push_back(c);
 	}
-	RefuseAmbiguous(candidates, 0, task.states[0].name);
+	SortByCost(candidates);
+	if (Rival(candidates, 0))
+		throw Refused(fmt::format("state {}: the blur fits two focus distances equally well. "
+			"Photograph boards that lie partly before and partly behind the plane of focus", task.states[0].name));
 	x = candidates.front().x;
 }
 
-/// Every direction, tilts up to a plane of focus along the axis, distances around U.
-void SolveTilted(const Solver& solver, const Task& task, size_t state, Unknowns& x)
+/// Every direction, tilts up to a plane of focus along the axis, distances around U; then
+/// the mirror images of the best in the boards.
+void SolveTilted(const Solver& solver, const Task& task, size_t state, const std::vector<Plane>& boards, Unknowns& x, bool& by_power)
 {
 	std::vector<Candidate> starts;
 	const double k = x.q[0][2];
@@ -191,11 +226,34 @@ void SolveTilted(const Solver& solver, const Task& task, size_t state, Unknowns&
 	starts.resize(std::min<size_t>(starts.size(), 12));
 	for (Candidate& c : starts)
 		c.cost = solver.Minimise(c.x, ONE_STATE, state);
-	RefuseAmbiguous(starts, state, task.states[state].name);
-	x = starts.front().x;
+	SortByCost(starts);
+	const Plane found = starts.front().x.q[state];
+	for (const Plane& board : boards)
+	{
+		Candidate mirrored = starts.front();
+		for (size_t i = 0; i < 3; ++i)
+			mirrored.x.q[state][i] = 2 * board[i] - found[i];
+		mirrored.cost = solver.Minimise(mirrored.x, ONE_STATE, state);
+		starts.push_back(mirrored);
+	}
+	SortByCost(starts);
+	x = Choose(starts, state, task.states[state].name, solver.w_px * task.pitch_mm, by_power);
 }
 
-/// Covariance of (d, floor, q of every state) in that order, rescaled by the residuals.
+/// The planes of a state's boards as vectors m with m.P = 1.
+std::vector<Plane> BoardPlanes(const Geometry& g, size_t state)
+{
+	std::vector<Plane> planes;
+	for (const Pose& pose : g.poses[state])
+	{
+		const Vec3<double> o = CameraFromBoard(pose.data(), 0, 0), x = CameraFromBoard(pose.data(), 1, 0), y = CameraFromBoard(pose.data(), 0, 1);
+		const Vec3<double> m = tilt_lens::PlaneThroughPoint(Cross(x - o, y - o), o);
+		planes.push_back({ m.x, m.y, m.z });
+	}
+	return planes;
+}
+
+/// Covariance of (d, floor^2, q of every state) in that order, rescaled by the residuals.
 Eigen::MatrixXd CovarianceOf(const Solver& solver, Unknowns& x)
 {
 	ceres::Problem problem;
@@ -206,7 +264,7 @@ Eigen::MatrixXd CovarianceOf(const Solver& solver, Unknowns& x)
 	options.algorithm_type = ceres::DENSE_SVD;
 	options.min_reciprocal_condition_number = 1e-22;
 	ceres::Covariance covariance(options);
-	std::vector<const double*> blocks{ &x.d, &x.floor };
+	std::vector<const double*> blocks{ &x.d, &x.floor_squared };
 	for (Plane& q : x.q)
 		blocks.push_back(q.data());
 	if (!covariance.Compute(blocks, &problem))
@@ -224,7 +282,8 @@ void FillSolution(const Task& task, const Geometry& g, const Solver& solver, con
 	const double w = g.w_px * task.pitch_mm, w_sigma = g.w_px_sigma * task.pitch_mm;
 	out.w_mm = { w, w_sigma };
 	out.aperture_diameter = { x.d, std::sqrt(c(0, 0)) };
-	out.psf_floor_px = { x.floor, std::sqrt(c(1, 1)) };
+	const double floor = std::sqrt(x.floor_squared), floor_squared_sigma = std::sqrt(c(1, 1));
+	out.psf_floor_px = { floor, floor_squared_sigma / std::max(2 * floor, std::sqrt(floor_squared_sigma)) };
 	for (size_t s = 0; s < x.q.size(); ++s)
 	{
 		Eigen::Matrix4d block = Eigen::Matrix4d::Zero();
@@ -280,8 +339,13 @@ Solution SolvePlane(const Task& task, const Geometry& geometry)
 	Unknowns x;
 	x.q.assign(task.states.size(), Plane{ 0, 0, 0 });
 	SolveUntilted(solver, task, x);
+	std::vector<char> by_power(task.states.size(), false);
 	for (size_t s = 1; s < task.states.size(); ++s)
-		SolveTilted(solver, task, s, x);
+	{
+		bool chosen = false;
+		SolveTilted(solver, task, s, BoardPlanes(geometry, s), x, chosen);
+		by_power[s] = chosen;
+	}
 	for (int round = 0; round < 3; ++round)
 	{
 		if (solver.Minimise(x, EVERYTHING, 0) >= 1e300)
@@ -291,6 +355,8 @@ Solution SolvePlane(const Task& task, const Geometry& geometry)
 	Solution solution;
 	solution.model = "plane";
 	FillSolution(task, geometry, solver, x, CovarianceOf(solver, x), solution);
+	for (size_t s = 0; s < by_power.size(); ++s)
+		solution.states[s].chosen_by_power = by_power[s];
 	RefuseUndetermined(task, solution);
 	return solution;
 }

@@ -4,6 +4,7 @@
 
 #include <tilt_lens/optics.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace tiltcal
@@ -14,8 +15,18 @@ namespace
 
 const double DEGREES = 180 / 3.14159265358979323846;
 
-/// Difference of two angles that may sit on both sides of the fold at +-90 degrees.
-double Unfold(double difference) { return difference - 180 * std::round(difference / 180); }
+/// `a` as it reads on the same side of the fold at +-90 degrees as `near`.
+TiltAngles Unfold(TiltAngles a, const TiltAngles& near)
+{
+	const double turns = std::round((a.tilt_direction - near.tilt_direction) / 180);
+	a.tilt_direction -= 180 * turns;
+	if (turns != 0)
+	{
+		a.lens_tilt = -a.lens_tilt;
+		a.focal_plane_tilt = -a.focal_plane_tilt;
+	}
+	return a;
+}
 
 }
 
@@ -51,11 +62,11 @@ void FillStateLens(const Vec3<double>& q, double w_mm, const Eigen::Matrix4d& co
 		const auto moved = [&](double h)
 		{
 			const Vec3<double> m{ q.x + (k == 0) * h, q.y + (k == 1) * h, q.z + (k == 2) * h };
-			return AnglesFromPlane(m, w_mm + (k == 3) * h);
+			return Unfold(AnglesFromPlane(m, w_mm + (k == 3) * h), a);
 		};
 		const TiltAngles p = moved(step), n = moved(-step);
-		J.col(k) << p.lens_tilt - n.lens_tilt, Unfold(p.focal_plane_tilt - n.focal_plane_tilt),
-			Unfold(p.tilt_direction - n.tilt_direction), p.focus_distance - n.focus_distance, p.focal_length - n.focal_length;
+		J.col(k) << p.lens_tilt - n.lens_tilt, p.focal_plane_tilt - n.focal_plane_tilt,
+			p.tilt_direction - n.tilt_direction, p.focus_distance - n.focus_distance, p.focal_length - n.focal_length;
 		J.col(k) /= 2 * step;
 	}
 	const Eigen::Matrix<double, 5, 5> c = J * covariance * J.transpose();

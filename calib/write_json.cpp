@@ -70,6 +70,7 @@ Json StateJson(const Calibration& c, const Solution& solution, const Geometry& g
 	json["inverse_focus_per_mm"] = { lens.q.x, lens.q.y, lens.q.z };
 	json["inverse_focus_sigma_per_mm"] = { lens.q_sigma.x, lens.q_sigma.y, lens.q_sigma.z };
 	json["rms_blur_px"] = lens.rms_blur;
+	json["chosen_by_power"] = lens.chosen_by_power;
 	json["photos"] = Json::array();
 	for (size_t p = 0; p < state.photos.size(); ++p)
 		json["photos"].push_back(PhotoJson(state.photos[p], g, s, p));

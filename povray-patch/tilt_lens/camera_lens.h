@@ -28,7 +28,9 @@ struct CameraLens
 	std::vector<SampleLevel> levels;    ///< increasing; the last one always stops
 
 	/// Rays leave from many points of the lens (and cover the pixel's area), not from one.
-	bool Samples_Lens() const { return spec.enabled && !lens.IsPinhole(); }
+	bool Samples_Lens() const { return spec.enabled && !Shows() && !lens.IsPinhole(); }
+	/// The preview of focus is asked for instead of the picture.
+	bool Shows() const { return spec.show_focus || spec.show_plane; }
 };
 
 }

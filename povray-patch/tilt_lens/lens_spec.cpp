@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
+#include <algorithm>
 #include <cmath>
 #include <cstdarg>
 #include <cstdio>
@@ -320,6 +321,25 @@ Vec3d WindowCentre(const LensSpec& spec, const CameraVectors& camera, const Fram
 	return direction + (unit * spec.shift.value.x) * frame.x + (unit * spec.shift.value.y) * frame.y;
 }
 
+/// Refuses a distortion that folds within the frame, seen at 33 x 33 points of it
+/// and half a percent beyond, where anti-aliasing may ask.
+void CheckDistortion(const TiltLens& lens, const CameraVectors& camera)
+{
+	for(int i = 0; i < DistortionTerms; i++)
+		if(!IsFinite(lens.distortion[i]))
+			Refuse("tilt_lens: distortion is not a finite number.");
+	for(int i = 0; i <= 32; i++)
+		for(int j = 0; j <= 32; j++)
+		{
+			const double x = 1.01 * (i / 32.0 - 0.5), y = 1.01 * (j / 32.0 - 0.5);
+			const Vec3d v = lens.direction + x * camera.right + y * camera.up;
+			const double depth = Dot(v, lens.normal);
+			if(depth > 0.0 && !IsInvertible(lens.distortion, Dot(v, lens.basis_x) / depth, -Dot(v, lens.basis_y) / depth))
+				Refuse("tilt_lens: the distortion folds inside the frame: no ideal point is imaged %.0f%% right and "
+				       "%.0f%% up of the centre. Use smaller coefficients or a narrower view.", 200.0 * x, 200.0 * y);
+		}
+}
+
 void Resolve(const LensSpec& spec, const CameraVectors& camera, TiltLens& lens)
 {
 	CheckRanges(spec);
@@ -341,16 +361,24 @@ void Resolve(const LensSpec& spec, const CameraVectors& camera, TiltLens& lens)
 	lens.normal = frame.WorldVector(l.normal);
 	lens.power = l.power;
 	lens.image_distance = 1.0 / sp.inverse_image_distance;
+	lens.axis = frame.z;
 	lens.direction = WindowCentre(spec, camera, frame, lens.image_distance);
 	lens.aperture_diameter = ApertureDiameterOf(spec, l.power);
 
 	const LensBasis<double> basis = BasisOfLensPlane(l.normal);
-	lens.lens_x = (0.5 * lens.aperture_diameter) * frame.WorldVector(basis.a);
-	lens.lens_y = (0.5 * lens.aperture_diameter) * frame.WorldVector(basis.b);
+	lens.basis_x = frame.WorldVector(basis.a);
+	lens.basis_y = frame.WorldVector(basis.b);
+	lens.lens_x = (0.5 * lens.aperture_diameter) * lens.basis_x;
+	lens.lens_y = (0.5 * lens.aperture_diameter) * lens.basis_y;
 
 	if(!IsFinite(lens.direction) || !IsFinite(lens.lens_x) || !IsFinite(lens.lens_y) ||
 	   !IsFinite(lens.power) || !IsFinite(lens.image_distance))
 		Refuse("tilt_lens: these numbers are too large or too small to make a lens of.");
+
+	lens.distorts = spec.distortion_given;
+	std::copy(spec.distortion, spec.distortion + DistortionTerms, lens.distortion);
+	if(lens.distorts)
+		CheckDistortion(lens, camera);
 }
 
 }

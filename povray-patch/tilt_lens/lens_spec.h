@@ -8,6 +8,7 @@
 
 #include <string>
 
+#include "distortion.h"
 #include "vec3.h"
 
 namespace tilt_lens
@@ -50,6 +51,14 @@ struct LensSpec
 	Given<double> aperture_diameter;
 	Given<double> f_stop;
 
+	// Effects, off unless named.
+	bool distortion_given = false;
+	double distortion[DistortionTerms] = {};
+
+	// The preview of focus.
+	bool show_focus = false;
+	bool show_plane = false;
+
 	// Words outside the block. The points move with the camera's transformations.
 	bool angle_given = false;
 	Given<Vec3d> focal_point;
@@ -68,10 +77,14 @@ struct CameraVectors
 struct TiltLens
 {
 	Vec3d direction;                    ///< centre of the viewing window, shift included
+	Vec3d axis;                         ///< e_z, unit
 	Vec3d inverse_focus;                ///< q
 	Vec3d normal;                       ///< n
 	Vec3d lens_x, lens_y;               ///< radius times an orthonormal basis of the lens plane
+	Vec3d basis_x, basis_y;             ///< that basis itself
 	double aperture_diameter = 0.0;
+	bool distorts = false;
+	double distortion[DistortionTerms] = {};
 
 	// For reports.
 	Vec3d inverse_focus_camera;         ///< q in the camera frame

@@ -23,7 +23,7 @@ using tilt_lens::Vec3d;
 
 static const char Tilt_Lens_Words[] =
 	"focal_plane_tilt, lens_tilt, focal_plane, focal_points, tilt_direction, focal_distance, "
-	"image_distance, focal_length, shift, aperture_diameter, f_stop";
+	"image_distance, focal_length, shift, aperture_diameter, f_stop, distortion, show";
 
 // Samples per pixel where the scene gives an aperture but no blur_samples.
 static const int Default_Blur_Samples = 128;
@@ -127,6 +127,29 @@ void Parser::Parse_Tilt_Lens_Word(Camera& New)
 			Error("tilt_lens: shift is given twice.");
 		Parse_UV_Vect(uv);
 		spec.shift = Vec3d{ uv[U], uv[V], 0.0 };
+	}
+	else if (word == "distortion")
+	{
+		if (spec.distortion_given)
+			Error("tilt_lens: distortion is given twice.");
+		spec.distortion_given = true;
+		spec.distortion[0] = Parse_Float();
+		for (int i = 1; i < tilt_lens::DistortionTerms; i++)
+		{
+			Parse_Comma();
+			spec.distortion[i] = Allow_Float(0.0);
+		}
+	}
+	else if (word == "show")
+	{
+		Get_Token();
+		// plane is one of POV-Ray's own words, focus a name like any other.
+		if (Token.Token_Id == PLANE_TOKEN)
+			spec.show_plane = true;
+		else if (((Token.Token_Id == IDENTIFIER_TOKEN) || (Token.Data != NULL)) && (strcmp(Token.Token_String, "focus") == 0))
+			spec.show_focus = true;
+		else
+			Error("tilt_lens: show takes focus or plane.");
 	}
 	else
 		Error("Unknown word '%s' in the tilt_lens block; the words are %s.", word.c_str(), Tilt_Lens_Words);

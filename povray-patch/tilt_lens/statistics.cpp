@@ -35,9 +35,12 @@ FocusCounts CountFocus(const TiltLens& lens, const CameraVectors& camera,
 		for(int x = left; x <= right; x++)
 		{
 			const Vec3d v = lens.direction + ((x + 0.5) / width - 0.5) * camera.right + (0.5 - (y + 0.5) / height) * camera.up;
-			const double kappa = Dot(lens.inverse_focus, v);
+			const bool seen = Dot(lens.normal, v) > 0.0;
+			const Vec3d ideal = lens.distorts && seen ?
+				UndistortDirection(lens.distortion, lens.basis_x, lens.basis_y, lens.normal, v) : v;
+			const double kappa = Dot(lens.inverse_focus, ideal);
 
-			if(!(Dot(lens.normal, v) > 0.0) && !lens.IsPinhole())
+			if(!seen && !lens.IsPinhole())
 				count.empty++;
 			else if(std::fabs(kappa) <= half_range || kappa == 0.0)
 				count.infinity++;
@@ -111,7 +114,7 @@ std::string StatisticsText(const TiltLens& lens, const FocusCounts& focus, const
 	const uint64_t all = focus.All();
 	Append(text, "Pixels in Focus: in front %.2f%%  at infinity %.2f%%  behind %.2f%%  empty %.2f%%\n",
 	       Percent(focus.front, all), Percent(focus.infinity, all), Percent(focus.behind, all), Percent(focus.empty, all));
-	text += "Effects:         none\n";
+	Append(text, "Effects:         %s\n", lens.distorts ? "distortion" : "none");
 	if(counts.pixels > 0)
 	{
 		const double rms = std::sqrt(counts.squared_error / double(counts.pixels));

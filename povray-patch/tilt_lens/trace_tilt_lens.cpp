@@ -8,6 +8,7 @@
 #include "backend/math/vector.h"
 #include "backend/render/tracepixel.h"
 #include "backend/tilt_lens/optics.h"
+#include "backend/tilt_lens/preview.h"
 #include "backend/tilt_lens/pupil.h"
 
 // this must be the last file included
@@ -18,18 +19,37 @@ namespace pov
 
 using tilt_lens::Vec3d;
 
+/// Chooses, once, how rays go through this camera's lens: what a scene does not
+/// name is not in the code that its rays run through.
+void TracePixel::SetupTiltLens()
+{
+	const tilt_lens::CameraLens& camera_lens = camera.Tilt_Lens;
+
+	cameraDirection = Vector3d(camera_lens.lens.direction.x, camera_lens.lens.direction.y, camera_lens.lens.direction.z);
+	// False leaves the camera to stock's pinhole path.
+	useFocalBlur = camera_lens.Samples_Lens() || camera_lens.Shows() || camera_lens.lens.distorts;
+	if(camera_lens.lens.distorts)
+		sendRayThroughTiltLens = &TracePixel::SendRayThroughTiltLens<true>;
+	else
+		sendRayThroughTiltLens = &TracePixel::SendRayThroughTiltLens<false>;
+}
+
 /// Turns the pinhole ray of a pixel, which stands in `ray`, into the ray that
 /// leaves the current lens sample (DESIGN.md, section 2). False where the pixel
-/// looks along or behind the lens plane (v.n <= 0): there is no such ray.
+/// looks along or behind the lens plane (v.n <= 0): there is no such ray, unless the
+/// lens is but a point.
 ///
 /// The pinhole direction is w v, not v; so is the result, since R is linear in v.
+template<bool Distorts>
 bool TracePixel::SendRayThroughTiltLens(Ray& ray)
 {
 	const tilt_lens::TiltLens& lens = camera.Tilt_Lens.lens;
-	const Vec3d v = { ray.Direction[X], ray.Direction[Y], ray.Direction[Z] };
+	Vec3d v = { ray.Direction[X], ray.Direction[Y], ray.Direction[Z] };
 
 	if(!(Dot(v, lens.normal) > 0.0))
-		return false;
+		return lens.IsPinhole();
+	if(Distorts)
+		v = tilt_lens::UndistortDirection(lens.distortion, lens.basis_x, lens.basis_y, lens.normal, v);
 
 	const tilt_lens::PupilPoint p = tilt_lens::SquareToDisc(tiltLensSample.lens_u, tiltLensSample.lens_v);
 	const Vec3d S = p.x * lens.lens_x + p.y * lens.lens_y;
@@ -100,10 +120,67 @@ struct Sample_Sums
 	}
 };
 
+/// The preview of focus: one ray through the lens centre, and paint over it.
+void TracePixel::ShowTiltLens(Colour& colour, DBL x, DBL y, DBL width, DBL height)
+{
+	const tilt_lens::CameraLens& camera_lens = camera.Tilt_Lens;
+	const tilt_lens::TiltLens& lens = camera_lens.lens;
+	tilt_lens::PixelFocus pixel = { 0.0, 0.0, width * Dot(lens.direction, lens.axis) / cameraLengthRight, true };
+	Ray ray;
+
+	colour.clear();
+	tiltLensSample = { 0.5, 0.5, 0.5, 0.5 };
+	if(CreateCameraRay(ray, x, y, width, height, 0))
+	{
+		Trace::TraceTicket ticket(maxTraceLevel, adcBailout, sceneData->outputAlpha);
+		const DBL distance = TraceRay(ray, colour, 1.0, ticket, false, camera.Max_Ray_Distance);
+		const Vec3d direction = { ray.Direction[X], ray.Direction[Y], ray.Direction[Z] };
+		const DBL slope = Dot(direction, lens.axis);
+
+		pixel.kappa = Dot(lens.inverse_focus, direction) / slope;
+		pixel.inverse_depth = (distance < BOUND_HUGE) ? 1.0 / (distance * slope) : 0.0;
+		pixel.empty = false;
+	}
+
+	tilt_lens::Rgb c = { colour[pRED], colour[pGREEN], colour[pBLUE] };
+	if(camera_lens.spec.show_focus)
+		c = tilt_lens::ShowFocus(c, pixel, lens.aperture_diameter);
+	if(camera_lens.spec.show_plane)
+		c = tilt_lens::ShowPlane(c, pixel);
+	colour = Colour(c.r, c.g, c.b, colour[pFILTER], colour[pTRANSM]);
+}
+
+/// One ray through the lens centre, for a camera without an opening whose lens
+/// nevertheless does something to rays.
+void TracePixel::TraceRayThroughTiltLensCentre(Colour& colour, DBL x, DBL y, DBL width, DBL height)
+{
+	Ray ray;
+
+	colour = Colour(0.0, 0.0, 0.0, 0.0, 1.0);
+	tiltLensSample = { 0.5, 0.5, 0.5, 0.5 };
+	if(CreateCameraRay(ray, x, y, width, height, 0))
+	{
+		colour.clear();
+		Trace::TraceTicket ticket(maxTraceLevel, adcBailout, sceneData->outputAlpha);
+		TraceRay(ray, colour, 1.0, ticket, false, camera.Max_Ray_Distance);
+	}
+}
+
 /// Distributed ray tracing over the pixel and the lens, until the pixel's mean is
 /// as certain as the scene asks, or blur_samples are spent.
 void TracePixel::TraceRayWithTiltLens(Colour& colour, DBL x, DBL y, DBL width, DBL height)
 {
+	if(camera.Tilt_Lens.Shows())
+	{
+		ShowTiltLens(colour, x, y, width, height);
+		return;
+	}
+	if(camera.Tilt_Lens.lens.IsPinhole())
+	{
+		TraceRayThroughTiltLensCentre(colour, x, y, width, height);
+		return;
+	}
+
 	tilt_lens::PixelSampler sampler((uint32_t)(int)x, (uint32_t)(int)y);
 	const vector<tilt_lens::SampleLevel>& levels = camera.Tilt_Lens.levels;
 	Sample_Sums sums;

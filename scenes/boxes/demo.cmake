@@ -1,6 +1,6 @@
 # The whole chain on the photographs of photos/: calibrate, render, compare, summarise.
 #
-#   cmake -DTILTCAL= -DPOVRAY= -DEXR2PNG= -DSCENE=<this folder> -DOUT= [-DSAMPLES=64] -P demo.cmake
+#   cmake -DTILTCAL= -DPOVRAY= -DEXR2PNG= -DSCENE=<this folder> -DOUT= [-DSAMPLES=128] -P demo.cmake
 #
 # OUT receives calibration/, render-<state>.exr and .png, side-by-side-<state>.png (photograph left), profile-<state>.png,
 # profiles/ (curves as CSV and numbers as JSON for every match) and summary.md. Any step that fails ends the demo.
@@ -13,7 +13,7 @@ foreach(name TILTCAL POVRAY EXR2PNG SCENE OUT)
 	endif()
 endforeach()
 if(NOT DEFINED SAMPLES)
-	set(SAMPLES 64)
+	set(SAMPLES 128)
 endif()
 
 set(STATES untilted plus5 minus5) # boxes.pov numbers them so
@@ -44,7 +44,7 @@ foreach(state IN LISTS STATES)
 	set(log "${OUT}/render-${state}.txt")
 	execute_process(
 		COMMAND "${POVRAY}" "+I${SCENE}/boxes.pov" "+L${SCENE}" "+L${OUT}/calibration" +W1800 +H1200
-			Declare=State=${number} Declare=TiltCal_Blur_Samples=${SAMPLES} -D -A +WT2 +FE "+O${OUT}/render-${state}.exr"
+			Declare=State=${number} Declare=TiltCal_Blur_Samples=${SAMPLES} -D -A +FE "+O${OUT}/render-${state}.exr"
 		OUTPUT_FILE "${log}" ERROR_FILE "${log}" RESULT_VARIABLE failed)
 	file(READ "${log}" text)
 	if(failed)

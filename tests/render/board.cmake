@@ -21,7 +21,7 @@ foreach(photo IN LISTS photos)
 	math(EXPR photo_number "${photo_number} + 1")
 	execute_process(
 		COMMAND "${POVRAY}" "+I${SCENES}/board/board.pov" "+L${SCENES}/board" "+L${CALIBRATION}" +W1800 +H1200
-			Declare=State=${number} Declare=Photo=${photo_number} Declare=TiltCal_Blur_Samples=${SAMPLES} ${SWITCHES}
+			Declare=State=${number} Declare=Photo=${photo_number} Declare=TiltCal_Blur_Samples=${SAMPLES}
 			-D -A +WT1 +FE "+O${WORK}/${name}.exr"
 		OUTPUT_VARIABLE log ERROR_VARIABLE log RESULT_VARIABLE failed)
 	if(failed)

@@ -14,7 +14,7 @@ file(MAKE_DIRECTORY "${WORK}")
 list(FIND states_in_boxes_pov "${STATE}" number)
 execute_process(
 	COMMAND "${POVRAY}" "+I${SCENE}/boxes.pov" "+L${SCENE}" "+L${CALIBRATION}" +W1800 +H1200
-		Declare=State=${number} Declare=TiltCal_Blur_Samples=${SAMPLES} ${SWITCHES} -D -A +WT1 +FE "+O${WORK}/render.exr"
+		Declare=State=${number} Declare=TiltCal_Blur_Samples=${SAMPLES} -D -A +WT1 +FE "+O${WORK}/render.exr"
 	OUTPUT_VARIABLE log ERROR_VARIABLE log RESULT_VARIABLE failed)
 if(failed)
 	message(FATAL_ERROR "rendering ${STATE} failed:\n${log}")

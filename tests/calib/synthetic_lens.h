@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// Photographs of a board through an ideal thin lens, by construction of rays in long
+// double: Gauss's lens equation in the lens's own axes and straight lines to the sensor.
+// None of it uses the formulas of optics.h that the calibrator fits with.
+
+#ifndef TILTCAL_SYNTHETIC_LENS_H
+#define TILTCAL_SYNTHETIC_LENS_H
+
+#include "calibration.h"
+
+namespace synthetic
+{
+
+struct Lens
+{
+	double w = 48, f = 44.6, d = 16;       // mm
+	double tilt = 0, direction = 0;        // degrees; as reported by tiltcal
+	double cx = 899.5, cy = 599.5;         // principal point, px
+	double floor = 0;                      // the lens's own blur, px
+
+	/// Distance along the axis at which this lens is in focus on the sensor, mm.
+	double FocusDistance() const;
+};
+
+struct Noise
+{
+	double corner = 0, blur = 0;           // px
+	unsigned seed = 1;
+};
+
+const double PITCH = 0.02;
+
+/// A state of boards (12x9 squares of 25 mm, 1800x1200 px) in six inclined poses, or the
+/// first `photos` of them, moved along the axis by `shift` mm.
+tiltcal::State Photograph(const std::string& name, const Lens& lens, const Noise& noise, int photos = 6, double shift = 0);
+
+/// A task of the given states; the first is the untilted one.
+tiltcal::Task MakeTask(std::vector<tiltcal::State> states);
+
+/// A board parallel to the sensor at `distance` mm.
+tiltcal::State PhotographParallel(const std::string& name, const Lens& lens, double distance);
+
+}
+
+#endif

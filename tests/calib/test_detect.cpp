@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// Detection and blur measurement on a board painted analytically: every pixel is the
+// mean over sub-pixels, each moved over the points of a blur disc.
+
+#include "detect.h"
+#include "error.h"
+#include "calibrate.h"
+#include "image_io.h"
+#include "measure.h"
+
+#include <gtest/gtest.h>
+#include <opencv2/imgproc.hpp>
+
+#include <cmath>
+#include <filesystem>
+
+namespace
+{
+
+using namespace tiltcal;
+
+struct Painted
+{
+	cv::Mat image;
+	cv::Matx33d pixels_from_squares;   // (column, row) from the first inner corner
+};
+
+/// A board of `columns` x `rows` squares in light perspective, white margin, grey around.
+Painted Paint(int columns, int rows, double blur_radius)
+{
+	const cv::Matx33d H(52, 4, 110, -3, 50, 105, 2e-5, 1e-4, 1);
+	const cv::Matx33d inverse = H.inv();
+	const int over = 4;   // sub-pixels a side
+	cv::Mat fine(560 * over, 760 * over, CV_32FC1);
+	for (int y = 0; y < fine.rows; ++y)
+		for (int x = 0; x < fine.cols; ++x)
+		{
+			const cv::Vec3d p = inverse * cv::Vec3d((x + 0.5) / over - 0.5, (y + 0.5) / over - 0.5, 1);
+			const double i = p[0] / p[2] + 1, j = p[1] / p[2] + 1;
+			float value = 0.3f;
+			if (i >= -1 && j >= -1 && i <= columns + 1 && j <= rows + 1)
+				value = 0.8f;
+			if (i >= 0 && j >= 0 && i < columns && j < rows && (int(i) + int(j)) % 2 == 0)
+				value = 0.05f;
+			fine.at<float>(y, x) = value;
+		}
+	// The disc as a kernel of sub-pixels; its own pixelation is 1/4 px, averaged over angles.
+	const int r = static_cast<int>(std::ceil(blur_radius * over));
+	cv::Mat kernel(2 * r + 1, 2 * r + 1, CV_32FC1, cv::Scalar(0));
+	for (int y = -r; y <= r; ++y)
+		for (int x = -r; x <= r; ++x)
+			kernel.at<float>(y + r, x + r) = std::hypot(x, y) <= blur_radius * over ? 1.f : 0.f;
+	kernel /= cv::sum(kernel)[0];
+	cv::Mat blurred;
+	cv::filter2D(fine, blurred, -1, kernel);
+	Painted painted;
+	cv::resize(blurred, painted.image, cv::Size(), 1.0 / over, 1.0 / over, cv::INTER_AREA);
+	painted.pixels_from_squares = H;
+	return painted;
+}
+
+TEST(Detect, CornersAndBlurOfAPaintedBoard)
+{
+	const double radius = 4;
+	const Painted painted = Paint(12, 9, radius);
+	Photo photo;
+	const Board board = ParseBoard("12x9", 25);
+	photo.corners = DetectCorners(painted.image, board, {}, "painted");
+	MeasureEdges(painted.image, board, photo);
+	ASSERT_EQ(photo.corners.size(), 88u);
+	for (const Corner& c : photo.corners)
+	{
+		const cv::Vec3d p = painted.pixels_from_squares * cv::Vec3d(c.column, c.row, 1);
+		// No noise: what is left is the sampling at a quarter pixel.
+		EXPECT_NEAR(c.x, p[0] / p[2], 0.05) << c.column << " " << c.row;
+		EXPECT_NEAR(c.y, p[1] / p[2], 0.05);
+	}
+	EXPECT_EQ(photo.edges_dropped, 0);
+	for (const Edge& e : photo.edges)
+		// The kernel's rim is rough by one sub-pixel of 1/4 px on the radius.
+		EXPECT_NEAR(e.blur, 2 * radius, 0.15) << e.column << " " << e.row;
+}
+
+TEST(Detect, MirroredAndTurnedBoards)
+{
+	const Painted painted = Paint(12, 9, 1.5);
+	const Board board = ParseBoard("12x9", 25);
+	cv::Mat mirrored, turned;
+	cv::flip(painted.image, mirrored, 1);
+	EXPECT_THROW(DetectCorners(mirrored, board, {}, "mirrored"), Error);
+	cv::rotate(painted.image, turned, cv::ROTATE_180);
+	EXPECT_THROW(DetectCorners(turned, board, {}, "turned"), Error);
+	// Asked to accept it, the board's own first corner comes first: now at the bottom right.
+	const std::vector<Corner> corners = DetectCorners(turned, board, { true }, "turned");
+	const cv::Vec3d p = painted.pixels_from_squares * cv::Vec3d(0, 0, 1);
+	EXPECT_NEAR(corners[0].x, turned.cols - 1 - p[0] / p[2], 0.1);
+	EXPECT_NEAR(corners[0].y, turned.rows - 1 - p[1] / p[2], 0.1);
+}
+
+TEST(Detect, AnEvenBoardShowsItsMirrorImage)
+{
+	// 12 x 8: the black corners lie on one diagonal, in the mirror on the other.
+	const Painted painted = Paint(12, 8, 1.5);
+	const Board board = ParseBoard("12x8", 25);
+	EXPECT_EQ(DetectCorners(painted.image, board, {}, "painted").size(), 77u);
+	cv::Mat mirrored;
+	cv::flip(painted.image, mirrored, 1);
+	EXPECT_THROW(DetectCorners(mirrored, board, {}, "mirrored"), Error);
+}
+
+TEST(Detect, WrongSizesAreRefused)
+{
+	const Painted painted = Paint(12, 9, 1.5);
+	for (const char* const size : { "11x8", "13x10", "9x12", "12x8", "10x9", "8x6" })
+		EXPECT_THROW(DetectCorners(painted.image, ParseBoard(size, 25), {}, "painted"), Error) << size;
+}
+
+TEST(Detect, PhotographsOfTwoSizesAreRefused)
+{
+	const Painted painted = Paint(12, 9, 1.5);
+	const std::string a = testing::TempDir() + "tiltcal-size-a.png", b = testing::TempDir() + "tiltcal-size-b.png";
+	WritePng(a, ToDisplay(painted.image));
+	WritePng(b, ToDisplay(painted.image(cv::Rect(0, 0, painted.image.cols - 2, painted.image.rows))));
+	EXPECT_THROW(MeasureAll({ { "untilted", { a, b } } }, ParseBoard("12x9", 25), 0.02, Transfer(), {}), Error);
+	EXPECT_EQ(MeasureAll({ { "untilted", { a, a } } }, ParseBoard("12x9", 25), 0.02, Transfer(), {}).states[0].photos.size(), 2u);
+	std::filesystem::remove(a);
+	std::filesystem::remove(b);
+}
+
+TEST(Detect, NoBoardIsRefused)
+{
+	cv::Mat noise(400, 600, CV_32FC1);
+	cv::theRNG().state = 1;
+	cv::randu(noise, 0.1, 0.9);
+	EXPECT_THROW(DetectCorners(noise, ParseBoard("12x9", 25), {}, "noise"), Error);
+	EXPECT_THROW(DetectCorners(cv::Mat(400, 600, CV_32FC1, cv::Scalar(0)), ParseBoard("12x9", 25), {}, "black"), Error);
+	EXPECT_THROW(DetectCorners(cv::Mat(3, 2, CV_32FC1, cv::Scalar(0.5)), ParseBoard("12x9", 25), {}, "tiny"), Error);
+}
+
+TEST(Detect, EdgesBlurredIntoEachOtherAreLeftOut)
+{
+	// Radius 24 on squares of 50: the blur of one edge reaches the next.
+	const Painted painted = Paint(12, 9, 24);
+	const Painted sharp = Paint(12, 9, 1);
+	Photo photo;
+	const Board board = ParseBoard("12x9", 25);
+	photo.corners = DetectCorners(sharp.image, board, {}, "sharp");
+	MeasureEdges(painted.image, board, photo);
+	for (const Edge& e : photo.edges)
+		EXPECT_NEAR(e.blur, 48, 3) << "a wrong width must not be reported";
+	EXPECT_GT(photo.edges_dropped, 120);
+}
+
+}

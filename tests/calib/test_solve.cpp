@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// The whole solver on widths and corners built ray by ray (synthetic_lens.h), back to
+// the parameters they were built from.
+
+#include "calibrate.h"
+#include "error.h"
+#include "solve_blur.h"
+#include "solve_geometry.h"
+#include "synthetic_lens.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+
+using namespace tiltcal;
+using synthetic::Lens;
+using synthetic::MakeTask;
+using synthetic::Noise;
+using synthetic::Photograph;
+
+struct Case
+{
+	double tilt, direction;
+};
+
+class EveryTilt : public testing::TestWithParam<Case> {};
+
+TEST_P(EveryTilt, ComesBackWithoutNoise)
+{
+	Lens untilted, tilted;
+	tilted.tilt = GetParam().tilt;
+	tilted.direction = GetParam().direction;
+	tilted.cy += 5;    // a real lens's picture moves when it is tilted
+	const Calibration c = Calibrate(MakeTask({ Photograph("untilted", untilted, {}), Photograph("tilted", tilted, {}) }), "plane", Poses::AUTO);
+	const Solution& s = c.solution;
+	// Corners are exact, so w is: only the solver's tolerance is left.
+	EXPECT_NEAR(s.w_mm.value, untilted.w, 1e-3);
+	EXPECT_NEAR(c.geometry.principal_point[1][1], tilted.cy, 0.01);
+	// The footprint of a disc in a tilted plane is an ellipse, 1 - cos(tilt) = 0.8 % flatter at
+	// 7 degrees along the tilt, which first order (b = w d |1 - q.P| / z) leaves out.
+	EXPECT_NEAR(s.aperture_diameter.value, untilted.d, 0.01 * untilted.d);
+	EXPECT_NEAR(s.states[0].focus_distance.value, untilted.FocusDistance(), 0.5);
+	EXPECT_NEAR(s.states[1].focus_distance.value, tilted.FocusDistance(), 1.0);
+	EXPECT_NEAR(s.states[1].focal_length.value, tilted.f, 0.01);
+	// The same 1 - cos(tilt) of the tilt's own effect, and 0.01 degrees for what is of second
+	// order in the aperture (d/U)^2.
+	const double left_out = std::abs(tilted.tilt) * (1 - std::cos(tilted.tilt * M_PI / 180)) + 0.01;
+	EXPECT_NEAR(s.states[1].lens_tilt.value, tilted.tilt, left_out);
+	if (tilted.tilt != 0)
+	{
+		EXPECT_NEAR(s.states[1].tilt_direction.value, tilted.direction, 0.3);
+	}
+	// 0.8 % of widths of some 10 px.
+	EXPECT_LT(s.rms_blur, 0.1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Tilts, EveryTilt, testing::Values(Case{ 0, 0 }, Case{ 5, 0 }, Case{ -5, 0 }, Case{ 5, 30 }, Case{ -3, 75 }, Case{ 7, -40 }, Case{ 2, 90 }),
+	[](const auto& tested) { return "case" + std::to_string(tested.index); });
+
+TEST(SolvePlane, NoiseComesOutAsSigma)
+{
+	Lens untilted, tilted;
+	untilted.floor = tilted.floor = 1;
+	tilted.tilt = 5;
+	tilted.direction = 30;
+	const Noise noise{ 0.03, 0.06, 11 };
+	const Calibration c = Calibrate(MakeTask({ Photograph("untilted", untilted, noise), Photograph("tilted", tilted, noise) }), "plane", Poses::AUTO);
+	const StateLens& lens = c.solution.states[1];
+	// DESIGN.md section 5: some thousandths of a degree for six photographs with 0.06 px per edge.
+	EXPECT_LT(lens.lens_tilt.sigma, 0.01);
+	EXPECT_GT(lens.lens_tilt.sigma, 0.0005);
+	// 4 sigma and the 0.03 degrees of the first-order blur (see above).
+	EXPECT_NEAR(lens.lens_tilt.value, 5, 4 * lens.lens_tilt.sigma + 0.03);
+	EXPECT_NEAR(lens.tilt_direction.value, 30, 4 * lens.tilt_direction.sigma + 0.3);
+	EXPECT_NEAR(c.solution.w_mm.value, 48, 4 * c.solution.w_mm.sigma);
+	// The floor is told from the blur: 942 edges, most of them far above it.
+	EXPECT_NEAR(c.solution.psf_floor_px.value, 1, 0.1);
+}
+
+TEST(SolvePlane, OneOutlierInTenDoesNotMoveIt)
+{
+	Lens untilted, tilted;
+	tilted.tilt = 5;
+	Task task = MakeTask({ Photograph("untilted", untilted, { 0.02, 0.05, 3 }), Photograph("tilted", tilted, { 0.02, 0.05, 4 }) });
+	int k = 0;
+	for (State& state : task.states)
+		for (Photo& photo : state.photos)
+			for (Edge& e : photo.edges)
+				if (k++ % 10 == 0)
+					e.blur += 6;
+	const Calibration c = Calibrate(task, "plane", Poses::AUTO);
+	// Plain least squares is off by more than 0.3 degrees here.
+	EXPECT_NEAR(c.solution.states[1].lens_tilt.value, 5, 0.1);
+}
+
+TEST(SolvePlane, OwnPosesWhenTheBoardsMoved)
+{
+	Lens untilted, tilted;
+	tilted.tilt = -4;
+	const Calibration c = Calibrate(MakeTask({ Photograph("untilted", untilted, {}), Photograph("tilted", tilted, {}, 6, 15) }), "plane", Poses::AUTO);
+	EXPECT_FALSE(c.geometry.shared_poses);
+	EXPECT_NEAR(c.solution.states[1].lens_tilt.value, -4, 0.03);
+}
+
+TEST(SolvePlane, SharedPosesAreSeen)
+{
+	Lens untilted, tilted;
+	tilted.tilt = -4;
+	const Noise noise{ 0.03, 0.05, 5 };
+	EXPECT_TRUE(Calibrate(MakeTask({ Photograph("untilted", untilted, noise), Photograph("tilted", tilted, noise) }), "plane", Poses::AUTO).geometry.shared_poses);
+}
+
+TEST(SolvePaper, StageOneIsExactUntilted)
+{
+	// Untilted the paper's (2) is the exact blur, so (3) must give back everything.
+	Lens lens;
+	const Task task = MakeTask({ Photograph("untilted", lens, {}) });
+	Geometry found;
+	const Solution s = SolvePaper(task, SolveGeometry(task, {}), found);
+	ASSERT_EQ(s.failure, "");
+	EXPECT_NEAR(s.w_mm.value, lens.w, 0.05);
+	EXPECT_NEAR(s.focus_distance.value, lens.FocusDistance(), 1);
+	// The blur of a feature is the mean of its edges': at the rim of the board it belongs to a
+	// place a third of a square further in, and at the focus the mean of |b| is not the |b|
+	// of the mean. Both make the blur look smaller, by 2 % here.
+	EXPECT_NEAR(s.aperture_diameter.value, lens.d, 0.03 * lens.d);
+}
+
+TEST(SolvePaper, StageTwoFindsTheSignAndASizeNearIt)
+{
+	// (4) is an approximation: DESIGN.md section 2 found 2.5 to 5.5 for a true 5.
+	for (const double tilt : { 5.0, -5.0 })
+	{
+		Lens untilted, tilted;
+		tilted.tilt = tilt;
+		const Task task = MakeTask({ Photograph("untilted", untilted, {}), Photograph("tilted", tilted, {}) });
+		Geometry found;
+		const Solution s = SolvePaper(task, SolveGeometry(task, {}), found);
+		ASSERT_EQ(s.failure, "");
+		EXPECT_GT(s.states[1].lens_tilt.value / tilt, 0.4);
+		EXPECT_LT(s.states[1].lens_tilt.value / tilt, 1.2);
+		// (1), with what the model itself found.
+		const double theta = s.states[1].focal_plane_tilt.value * M_PI / 180;
+		EXPECT_NEAR(std::tan(s.states[1].lens_tilt.value * M_PI / 180),
+			s.w_mm.value * std::tan(theta) / (s.focus_distance.value + s.w_mm.value), 1e-9);
+	}
+}
+
+TEST(SolvePlane, OneTiltedPhotographIsNotMistakenForItsMirrorImage)
+{
+	// |1 - q.P| of one board fits two planes of focus exactly; the focal length decides.
+	Lens untilted, tilted;
+	tilted.tilt = 5;
+	const Noise noise{ 0.02, 0.05, 8 };
+	const Calibration c = Calibrate(MakeTask({ Photograph("untilted", untilted, noise), Photograph("tilted", tilted, noise, 1) }), "plane", Poses::AUTO);
+	// The one board's own pose is known to 0.1 degrees or so, and the tilt no better.
+	EXPECT_NEAR(c.solution.states[1].lens_tilt.value, 5, 0.2);
+}
+
+/// Why it was refused, or "" when it was not.
+std::string Refusal(const Task& task, const std::string& model = "plane")
+{
+	try
+	{
+		Calibrate(task, model, Poses::AUTO);
+	}
+	catch (const Error& e)
+	{
+		EXPECT_EQ(e.Code(), EXIT_REFUSED);
+		return e.what();
+	}
+	return "";
+}
+
+TEST(Refuses, BoardParallelToTheSensor)
+{
+	EXPECT_THAT(Refusal(MakeTask({ synthetic::PhotographParallel("untilted", {}, 600) })), testing::HasSubstr("inclined"));
+}
+
+TEST(Refuses, EverythingInFocus)
+{
+	// An aperture of 0.2 mm: the blur is below the noise everywhere.
+	Lens lens;
+	lens.d = 0.2;
+	lens.floor = 1;
+	EXPECT_THAT(Refusal(MakeTask({ Photograph("untilted", lens, { 0.02, 0.05, 2 }) })), testing::HasSubstr("blur"));
+}
+
+TEST(Refuses, TooFewEdges)
+{
+	Task task = MakeTask({ Photograph("untilted", Lens(), {}, 1) });
+	task.states[0].photos[0].edges.resize(10);
+	EXPECT_THAT(Refusal(task), testing::HasSubstr("only 10 edges"));
+}
+
+}

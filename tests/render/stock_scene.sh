@@ -1,0 +1,33 @@
+#!/bin/sh
+# Renders one scene with stock POV-Ray and with ours, and says whether the pixels
+# are the same. One line on stdout: same, DIFFERENT, skipped (stock fails or takes
+# longer than LIMIT seconds), or FAILED (ours does, stock does not).
+#
+#   stock_scene.sh STOCK OURS INCLUDE_DIR WORK LIMIT SCENE
+
+stock=$1 ours=$2 include=$3 work=$4 limit=$5 scene=$6
+id=$(printf '%s' "$scene" | cksum | cut -d' ' -f1)
+folder=$(dirname "$scene")
+cd "$folder" || exit 1
+# One thread and no gamma surprises: some of stock's features (radiosity, jitter)
+# depend on the order of pixels.
+render() {
+	timeout "$3" "$1" "+I$(basename "$scene")" "+O$work/$id-$2.ppm" +FP16 +W80 +H60 -D +WT1 -GA \
+		"+L$include" "+L$folder" < /dev/null > "$work/$id-$2.log" 2>&1
+}
+
+# The header of a PPM carries the date; the pixels are its last 80 x 60 x 6 bytes.
+pixels() {
+	tail -c 28800 "$work/$id-$1.ppm" | cksum
+}
+
+if ! render "$stock" stock "$limit"; then
+	echo "skipped $scene"
+elif ! render "$ours" ours $((limit * 10)); then
+	echo "FAILED $scene (log $work/$id-ours.log)"
+elif [ "$(pixels stock)" = "$(pixels ours)" ]; then
+	echo "same $scene"
+	rm -f "$work/$id"-*
+else
+	echo "DIFFERENT $scene"
+fi
