@@ -129,9 +129,9 @@ std::string CameraInc(const Calibration& c, size_t s)
 		name, TILTCAL_VERSION, c.solution.model, c.task.width, c.task.height, RenderGeometry(c).rms,
 		distorted ? fmt::format("without distortion, {:.3f} px with it", MainGeometry(c).rms) : "without distortion, which this lens does not need");
 	if (distorted)
-		out += "// 1: the camera with the lens's distortion, for a tilt_lens that knows `distortion`;\n"
-			"// it acts about the tilted lens axis. 0: the best camera without it.\n"
-			"#ifndef (TiltCal_Distortion)\n\t#declare TiltCal_Distortion = 0;\n#end\n\n"
+		out += "// 1: with the lens's distortion, which acts about the tilted lens axis. 0: the best\n"
+			"// camera without it, fitted as such.\n"
+			"#ifndef (TiltCal_Distortion)\n\t#declare TiltCal_Distortion = 1;\n#end\n\n"
 			"#if (TiltCal_Distortion)\n\n" + Numbers(c, c.solution, MainGeometry(c), s, p) + "\n#else\n\n";
 	out += Numbers(c, c.render, RenderGeometry(c), s, p);
 	if (distorted)

@@ -62,7 +62,8 @@ Rgb ShowPlane(const Rgb& scene, const PixelFocus& pixel)
 		return scene;
 	if(std::fabs(offset) < 0.005 * pixel.kappa)
 		return PlaneColour;
-	return offset < 0.0 ? Mix(scene, PlaneColour, 0.25) : scene;
+	// The sheet ends where there is nothing behind it: no haze over the sky.
+	return offset < 0.0 && pixel.inverse_depth > 0.0 ? Mix(scene, PlaneColour, 0.18) : scene;
 }
 
 }
