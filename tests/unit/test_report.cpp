@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// The statistics and the preview of focus, without POV-Ray.
+
+#include <cmath>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "optics.h"
+#include "preview.h"
+#include "statistics.h"
+
+using namespace tilt_lens;
+using testing::HasSubstr;
+
+namespace
+{
+
+const CameraVectors Camera = { { 0, 0, 0 }, { 0, 0, 1 }, { 2, 0, 0 }, { 0, 1, 0 } };
+
+TiltLens Resolved(double tilt, double direction, double distance, double aperture)
+{
+	LensSpec spec;
+	spec.enabled = true;
+	spec.focal_plane_tilt = tilt;
+	spec.tilt_direction = direction;
+	spec.focal_distance = distance;
+	spec.aperture_diameter = aperture;
+	TiltLens lens;
+	std::string error;
+	EXPECT_TRUE(ResolveTiltLens(spec, Camera, lens, error)) << error;
+	return lens;
+}
+
+}
+
+// z = U + x tan(A): kappa = 0 at v.x = 1/tan(A). With A = atan(2) that is v.x = 0.5,
+// three quarters of the way across a frame of -1 to 1.
+TEST(Statistics, SharesOfThePictureAreThoseOfThePlane)
+{
+	const TiltLens lens = Resolved(std::atan(2.0) * 180 / M_PI, 90.0, 50.0, 0.1);
+	const FocusCounts c = CountFocus(lens, Camera, 800, 100, 0, 0, 799, 99);
+	EXPECT_EQ(c.All(), 80000u);
+	EXPECT_EQ(c.empty, 0u);
+	EXPECT_NEAR(c.front, 60000, 101);   // one column of pixels either way
+	EXPECT_NEAR(c.behind, 20000, 101);
+	EXPECT_GT(c.infinity, 0u);
+	EXPECT_LE(c.infinity, 200u);
+	// The right half alone.
+	EXPECT_EQ(CountFocus(lens, Camera, 800, 100, 400, 0, 799, 99).All(), 40000u);
+}
+
+TEST(Statistics, PixelsBehindTheLensPlaneAreEmpty)
+{
+	// n = (-sin 60, 0, cos 60): v.n = 0 at v.x = 1/tan 60 = 0.577.
+	LensSpec spec;
+	spec.enabled = true;
+	spec.lens_tilt = 60.0;
+	spec.tilt_direction = 90.0;
+	spec.focal_distance = 5.0;
+	spec.aperture_diameter = 0.1;
+	TiltLens lens;
+	std::string error;
+	ASSERT_TRUE(ResolveTiltLens(spec, Camera, lens, error)) << error;
+	const FocusCounts c = CountFocus(lens, Camera, 1000, 10, 0, 0, 999, 9);
+	EXPECT_NEAR(c.empty / 10000.0, 0.5 * (1.0 - 1.0 / std::sqrt(3.0)), 1.5e-3);
+}
+
+TEST(Statistics, TextNamesTheFigures)
+{
+	RenderCounts a, b;
+	a.AddPixel(16, 1e-6);
+	b.AddPixel(64, 3e-6);
+	a += b;
+	const TiltLens lens = Resolved(60.0, 90.0, 8.0, 0.5);
+	const std::string text = StatisticsText(lens, CountFocus(lens, Camera, 8, 6, 0, 0, 7, 5), a);
+	EXPECT_THAT(text, HasSubstr("60.000 deg to the sensor, receding towards 90.00 deg"));
+	EXPECT_THAT(text, HasSubstr("Distance:      8 along the axis"));
+	EXPECT_THAT(text, HasSubstr("min 16  mean 40.00  max 64   Camera Rays: 80"));
+	EXPECT_THAT(text, HasSubstr("0.00141 RMS"));          // sqrt(2e-6)
+	EXPECT_THAT(StatisticsText(Resolved(0, 0, 8, 0), {}, {}), HasSubstr("a pinhole"));
+}
+
+// The blur of the preview against the definition, w d |1/U - 1/z| in pixels.
+TEST(Preview, BlurIsThePapersInPixels)
+{
+	const double d = 0.3, U = 7.0, z = 3.0, pixels_per_slope = 400.0;
+	const PixelFocus pixel = { 1.0 / z, 1.0 / U, pixels_per_slope, false };
+	EXPECT_NEAR(BlurInPixels(pixel, d), d * (1.0 / z - 1.0 / U) * pixels_per_slope, 1e-12);
+	EXPECT_GT(BlurInPixels(pixel, d), 0.0) << "nearer than the focus";
+	const PixelFocus sky = { 0.0, 1.0 / U, pixels_per_slope, false };
+	EXPECT_NEAR(BlurInPixels(sky, d), -d / U * pixels_per_slope, 1e-12);
+}
+
+TEST(Preview, ColourInFocusGreyOutsideContoursBetween)
+{
+	const Rgb scene = { 0.8, 0.3, 0.1 };
+	const auto at = [&](double blur) { return ShowFocus(scene, { blur / 100.0, 0.0, 100.0, false }, 1.0); };
+	EXPECT_EQ(at(0.5).r, scene.r);
+	EXPECT_EQ(at(-0.99).b, scene.b);
+	EXPECT_LT(at(3.0).r, 0.5 * scene.r);
+	EXPECT_GT(at(4.0).b, 0.5) << "a contour nearer than the focus is blue";
+	EXPECT_GT(at(-8.0).r, 0.5) << "a contour beyond the focus is orange";
+	EXPECT_LT(at(-8.0).b, 0.2);
+	EXPECT_LT(at(5.5).b, 0.3) << "no contour between";
+}
+
+TEST(Preview, PlaneIsASheetWithATrace)
+{
+	const Rgb scene = { 0.2, 0.2, 0.2 };
+	const auto at = [&](double z, double kappa) { return ShowPlane(scene, { 1.0 / z, kappa, 100.0, false }); };
+	EXPECT_GT(at(10.0, 0.1).r, 0.8) << "on the plane";
+	EXPECT_EQ(at(5.0, 0.1).r, scene.r) << "in front of the sheet";
+	EXPECT_GT(at(20.0, 0.1).r, scene.r) << "through the sheet";
+	EXPECT_EQ(at(20.0, -0.1).r, scene.r) << "the plane is behind the lens";
+	EXPECT_EQ(ShowPlane(scene, { 0.0, 0.1, 100.0, false }).r, scene.r) << "no haze over the sky";
+}
