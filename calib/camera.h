@@ -11,6 +11,7 @@
 #define TILTCAL_CAMERA_H
 
 #include <ceres/rotation.h>
+#include <tilt_lens/distortion.h>
 #include <tilt_lens/optics.h>
 
 #include <array>
@@ -37,16 +38,6 @@ inline Vec3<T> CameraFromBoard(const T* pose, double x, double y)
 	return { p[0] + pose[3], p[1] + pose[4], p[2] + pose[5] };
 }
 
-/// Brown-Conrady, OpenCV's, forward from ideal to image; x right, y down, in units of w.
-template<typename T>
-inline void Distort(const T* k, const T& x, const T& y, T* distorted)
-{
-	const T r2 = x * x + y * y;
-	const T radial = T(1) + r2 * (k[0] + r2 * (k[1] + r2 * k[4]));
-	distorted[0] = x * radial + T(2) * k[2] * x * y + k[3] * (r2 + T(2) * x * x);
-	distorted[1] = y * radial + k[2] * (r2 + T(2) * y * y) + T(2) * k[3] * x * y;
-}
-
 /// Pixel (u, v) of P = (x, y, z), z > 0, seen through a lens with unit normal n.
 /// The distortion belongs to the lens, so it acts about the lens axis: P is taken to
 /// the lens's own axes (BasisOfLensPlane), distorted there in units of the axial distance,
@@ -60,7 +51,7 @@ inline void Project(const T& w_px, const T* distortion, const T* principal_point
 	const Vec3<T> a = lift(basis.a), b = lift(basis.b), c = lift(n);
 	const T depth = Dot(P, c);
 	T d[2];
-	Distort(distortion, Dot(P, a) / depth, -Dot(P, b) / depth, d);
+	tilt_lens::Distort(distortion, Dot(P, a) / depth, -Dot(P, b) / depth, d);
 	const Vec3<T> v = d[0] * a - d[1] * b + c;
 	pixel[0] = principal_point[0] + w_px * v.x / v.z;
 	pixel[1] = principal_point[1] - w_px * v.y / v.z;

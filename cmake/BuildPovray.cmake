@@ -2,7 +2,9 @@
 # and lays out STAGE/bin, STAGE/share and STAGE/etc so that it runs from there.
 #
 #   cmake -DWORK=... -DSTAGE=... -DPATCH_DIR=... -DFLAGS=... [-DSOURCE=...] [-DCCACHE=...]
-#         [-DCXX=...] [-DCC=...] -P BuildPovray.cmake
+#         [-DCXX=...] [-DCC=...] [-DOWN_FLAGS=...] -P BuildPovray.cmake
+#
+# OWN_FLAGS: further flags for tilt_lens/*.cpp and for linking, not for upstream's sources.
 
 cmake_minimum_required(VERSION 3.25)
 
@@ -20,6 +22,9 @@ execute_process(
 # What configure's answer depends on: the flags and the list of source files.
 file(GLOB ours RELATIVE "${PATCH_DIR}" "${PATCH_DIR}/tilt_lens/*.h" "${PATCH_DIR}/tilt_lens/*.cpp")
 set(wanted "${FLAGS}|${CXX}|${CC}|${CCACHE}|${ours}")
+if(OWN_FLAGS)
+	string(APPEND wanted "|${OWN_FLAGS}")
+endif()
 set(configured "")
 if(EXISTS "${WORK}/configured.txt")
 	file(READ "${WORK}/configured.txt" configured)
@@ -36,10 +41,11 @@ if(NOT configured STREQUAL wanted)
 	# program that promises to handle infinities, nor -march=native in one whose
 	# pictures are to be the same on every machine.
 	execute_process(
-		COMMAND ./configure "COMPILED_BY=the tilt-lens project" NON_REDISTRIBUTABLE_BUILD=yes
+		COMMAND "${CMAKE_COMMAND}" -E env ASAN_OPTIONS=detect_leaks=0 # configure's test programs leak
+			./configure "COMPILED_BY=the tilt-lens project" NON_REDISTRIBUTABLE_BUILD=yes
 			--without-libsdl --without-x --disable-optimiz --disable-optimiz-arch --disable-strip
 			--with-boost-thread=boost_thread
-			"LIBS=-lboost_system -lboost_thread" "CXXFLAGS=${FLAGS}" "CFLAGS=${FLAGS}"
+			"LIBS=-lboost_system -lboost_thread" "CXXFLAGS=${FLAGS}" "CFLAGS=${FLAGS}" "LDFLAGS=${OWN_FLAGS}"
 			"CXX=${CCACHE} ${CXX}" "CC=${CCACHE} ${CC}"
 		WORKING_DIRECTORY "${src}"
 		RESULT_VARIABLE result OUTPUT_FILE "${WORK}/configure.log" ERROR_FILE "${WORK}/configure.log")
@@ -49,6 +55,12 @@ if(NOT configured STREQUAL wanted)
 	file(STRINGS "${WORK}/configure.log" missing REGEX "Unsupported image formats: +[a-z]")
 	if(missing)
 		message(FATAL_ERROR "POV-Ray would lack picture formats:${missing}. Run cmake/setup.sh and try again.")
+	endif()
+	# GNU make prefers this file to configure's Makefile.
+	if(OWN_FLAGS)
+		file(WRITE "${src}/source/GNUmakefile" "include Makefile\nbackend/tilt_lens/%.o: CXXFLAGS += ${OWN_FLAGS}\n")
+	else()
+		file(REMOVE "${src}/source/GNUmakefile")
 	endif()
 	file(WRITE "${WORK}/configured.txt" "${wanted}")
 endif()
@@ -71,7 +83,9 @@ endif()
 set(share "${STAGE}/share/povray-3.7")
 set(etc "${STAGE}/etc/povray/3.7")
 file(MAKE_DIRECTORY "${STAGE}/bin" "${etc}" "${share}")
-file(COPY_FILE "${src}/unix/povray" "${STAGE}/bin/povray" ONLY_IF_DIFFERENT)
+# By way of a rename: the program may be running.
+file(COPY_FILE "${src}/unix/povray" "${STAGE}/bin/povray.new")
+file(RENAME "${STAGE}/bin/povray.new" "${STAGE}/bin/povray")
 file(COPY "${src}/distribution/include" "${src}/distribution/ini" DESTINATION "${share}")
 file(COPY_FILE "${PATCH_DIR}/config/povray.conf" "${etc}/povray.conf" ONLY_IF_DIFFERENT)
 file(COPY_FILE "${PATCH_DIR}/config/povray.ini" "${etc}/povray.ini" ONLY_IF_DIFFERENT)

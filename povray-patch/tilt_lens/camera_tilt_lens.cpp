@@ -27,6 +27,7 @@ void Camera::Note_Words_For_Tilt_Lens()
 		return;
 
 	Tilt_Lens.spec.angle_given = (Angle != HUGE_VAL) && (Angle > 0.0);
+	Tilt_Lens.spec.right_given = (Right[X] != HUGE_VAL);
 	Tilt_Lens.spec.aperture = Aperture;
 	if (Look_At[X] != HUGE_VAL)
 		Tilt_Lens.spec.look_at = From_Vector(Look_At);

@@ -313,7 +313,7 @@ double ApertureDiameterOf(const LensSpec& spec, double power)
 Vec3d WindowCentre(const LensSpec& spec, const CameraVectors& camera, const Frame& frame, double image_distance)
 {
 	const double scale = image_distance / frame.window_distance;
-	const bool sensor_is_window = (spec.image_distance || spec.focal_length) && !spec.angle_given;
+	const bool sensor_is_window = spec.Sensor_Is_Window();
 	const Vec3d direction = sensor_is_window ? scale * camera.direction : camera.direction;
 	if(!spec.shift)
 		return direction;

@@ -61,9 +61,14 @@ struct LensSpec
 
 	// Words outside the block. The points move with the camera's transformations.
 	bool angle_given = false;
+	bool right_given = false;
 	Given<Vec3d> focal_point;
 	Given<Vec3d> look_at;
 	double aperture = 0.0;              ///< POV-Ray's word: a lens of diameter A/2
+
+	/// The window right x up is the sensor itself, at the image distance; otherwise it
+	/// only says the field of view.
+	bool Sensor_Is_Window() const { return (image_distance.given || focal_length.given) && !angle_given; }
 };
 
 /// The camera's vectors after all its transformations, in the world.

@@ -41,9 +41,10 @@ void Parser::Parse_Tilt_Lens(Camera& New)
 {
 	if (New.Tilt_Lens.spec.enabled)
 		Error("A camera has only one tilt_lens block.");
+	if (New.Type != PERSPECTIVE_CAMERA)
+		Error("tilt_lens is a camera type of its own and cannot be combined with another.");
 	New.Tilt_Lens.spec = LensSpec();
 	New.Tilt_Lens.spec.enabled = true;
-	New.Type = PERSPECTIVE_CAMERA;
 
 	Get_Token();
 	Unget_Token();
@@ -189,6 +190,16 @@ void Parser::Resolve_Tilt_Lens(Camera& New)
 		Error("tilt_lens is a camera type of its own and cannot be combined with another.");
 	if (!tilt_lens::ResolveTiltLens(New.Tilt_Lens.spec, vectors, New.Tilt_Lens.lens, error))
 		Error("%s", error.c_str());
+	if (!New.Tilt_Lens.spec.right_given && New.Tilt_Lens.spec.Sensor_Is_Window())
+	{
+		// Almost certainly not what was meant: a window 1.33 wide at, say, 50.
+		DBL width;
+		VLength(width, New.Right);
+		Warning(0, "tilt_lens: the sensor is what right and up span, %g wide, at image distance %g: a view of %.3g degrees.\n"
+		           "Give right and up the sensor's size, or the field of view with angle.",
+		           width, New.Tilt_Lens.lens.image_distance,
+		           2.0 * atan2(0.5 * width, New.Tilt_Lens.lens.image_distance) / M_PI_180);
+	}
 	if (New.Tilt_Lens.Samples_Lens() && (New.Blur_Samples <= 0))
 		New.Blur_Samples = Default_Blur_Samples;
 	New.Tilt_Lens.levels = Sample_Levels(New);

@@ -7,6 +7,8 @@
 #include "backend/colour/colour.h"
 #include "backend/math/vector.h"
 #include "backend/render/tracepixel.h"
+#include "backend/scene/objects.h"
+#include "backend/shape/planes.h"
 #include "backend/tilt_lens/optics.h"
 #include "backend/tilt_lens/preview.h"
 #include "backend/tilt_lens/pupil.h"
@@ -32,6 +34,52 @@ void TracePixel::SetupTiltLens()
 		sendRayThroughTiltLens = &TracePixel::SendRayThroughTiltLens<true>;
 	else
 		sendRayThroughTiltLens = &TracePixel::SendRayThroughTiltLens<false>;
+	tiltLensTouchesInterior = InteriorTouchesTiltLens();
+}
+
+/// Whether the box of an object reaches the lens.
+static bool Box_Touches_Lens(const BBOX& box, const VECTOR location, const tilt_lens::TiltLens& lens)
+{
+	const DBL x[3] = { lens.lens_x.x, lens.lens_x.y, lens.lens_x.z };
+	const DBL y[3] = { lens.lens_y.x, lens.lens_y.y, lens.lens_y.z };
+
+	for(int i = 0; i < 3; i++)
+	{
+		// Boxes are kept in single precision: leave room for their rounding.
+		const DBL reach = (sqrt(x[i] * x[i] + y[i] * y[i]) + fabs(location[i]) * 1e-6) * 1.001 + EPSILON;
+		const DBL low = box.Lower_Left[i], high = low + box.Lengths[i];
+		if((low - fabs(low) * 1e-6 > location[i] + reach) || (high + fabs(high) * 1e-6 < location[i] - reach))
+			return false;
+	}
+	return true;
+}
+
+/// Whether something with an interior may begin or end on the lens, so that the
+/// interiors at the lens differ from sample to sample. A yes costs a look-up per
+/// ray, a wrong no would be a wrong picture.
+bool TracePixel::InteriorTouchesTiltLens()
+{
+	const tilt_lens::TiltLens& lens = camera.Tilt_Lens.lens;
+
+	for(vector<ObjectPtr>::iterator object = sceneData->objects.begin(); object != sceneData->objects.end(); object++)
+	{
+		if(((*object)->interior == NULL) || !Box_Touches_Lens((*object)->BBox, camera.Location, lens))
+			continue;
+		// Planes are endless, and floors in most scenes. A plane that has all corners of a
+		// square around the lens on one side has the lens on that side.
+		if((dynamic_cast<Plane *>(*object) == NULL) || !(*object)->Clip.empty())
+			return true;
+		int inside = 0;
+		for(int corner = 0; corner < 4; corner++)
+		{
+			const Vec3d offset = ((corner & 1) ? 1.01 : -1.01) * lens.lens_x + ((corner & 2) ? 1.01 : -1.01) * lens.lens_y;
+			VECTOR point = { camera.Location[X] + offset.x, camera.Location[Y] + offset.y, camera.Location[Z] + offset.z };
+			inside += (*object)->Inside(point, threadData) ? 1 : 0;
+		}
+		if((inside != 0) && (inside != 4))
+			return true;
+	}
+	return false;
 }
 
 /// Turns the pinhole ray of a pixel, which stands in `ray`, into the ray that
@@ -47,7 +95,12 @@ bool TracePixel::SendRayThroughTiltLens(Ray& ray)
 	Vec3d v = { ray.Direction[X], ray.Direction[Y], ray.Direction[Z] };
 
 	if(!(Dot(v, lens.normal) > 0.0))
-		return lens.IsPinhole();
+	{
+		if(!lens.IsPinhole())
+			return false;
+		InitRayContainerState(ray, false);
+		return true;
+	}
 	if(Distorts)
 		v = tilt_lens::UndistortDirection(lens.distortion, lens.basis_x, lens.basis_y, lens.normal, v);
 
@@ -57,6 +110,7 @@ bool TracePixel::SendRayThroughTiltLens(Ray& ray)
 
 	Make_Vector(ray.Origin, camera.Location[X] + S.x, camera.Location[Y] + S.y, camera.Location[Z] + S.z);
 	Make_Vector(ray.Direction, R.x, R.y, R.z);
+	InitRayContainerState(ray, tiltLensTouchesInterior);
 	return true;
 }
 
