@@ -20,7 +20,7 @@ execute_process(
 	COMMAND_ERROR_IS_FATAL ANY)
 
 # What configure's answer depends on: the flags and the list of source files.
-file(GLOB ours RELATIVE "${PATCH_DIR}" "${PATCH_DIR}/tilt_lens/*.h" "${PATCH_DIR}/tilt_lens/*.cpp")
+file(GLOB ours RELATIVE "${PATCH_DIR}" "${PATCH_DIR}/tilt_lens/*.cpp")
 set(wanted "${FLAGS}|${CXX}|${CC}|${CCACHE}|${ours}")
 if(OWN_FLAGS)
 	string(APPEND wanted "|${OWN_FLAGS}")

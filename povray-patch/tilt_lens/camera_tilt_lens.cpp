@@ -7,17 +7,13 @@
 #include "backend/math/vector.h"
 #include "backend/math/matrices.h"
 #include "backend/scene/camera.h"
+#include "backend/tilt_lens/camera_vectors.h"
 
 // this must be the last file included
 #include "base/povdebug.h"
 
 namespace pov
 {
-
-static tilt_lens::Vec3d From_Vector(const VECTOR v)
-{
-	return { v[X], v[Y], v[Z] };
-}
 
 /// Records the words around the tilt_lens block that matter to the lens. Called
 /// while the parser still marks words that were not given with HUGE_VAL.

@@ -10,6 +10,7 @@
 #include "backend/math/chi2.h"
 #include "backend/math/vector.h"
 #include "backend/scene/camera.h"
+#include "backend/tilt_lens/camera_vectors.h"
 
 // this must be the last file included
 #include "base/povdebug.h"
@@ -30,11 +31,6 @@ static const int Default_Blur_Samples = 128;
 
 // The variance of fewer samples than this says too little to stop on.
 static const int First_Level = 16;
-
-static Vec3d From_Vector(const VECTOR v)
-{
-	return { v[X], v[Y], v[Z] };
-}
 
 /// tilt_lens [ { WORDS } ]
 void Parser::Parse_Tilt_Lens(Camera& New)
@@ -137,8 +133,15 @@ void Parser::Parse_Tilt_Lens_Word(Camera& New)
 		spec.distortion[0] = Parse_Float();
 		for (int i = 1; i < tilt_lens::DistortionTerms; i++)
 		{
-			Parse_Comma();
-			spec.distortion[i] = Allow_Float(0.0);
+			// Only a comma says that another coefficient follows: a number without one may be
+			// the next word, under a name that the scene has declared.
+			Get_Token();
+			if (Token.Token_Id != COMMA_TOKEN)
+			{
+				Unget_Token();
+				break;
+			}
+			spec.distortion[i] = Parse_Float();
 		}
 	}
 	else if (word == "show")
@@ -181,14 +184,10 @@ static std::vector<tilt_lens::SampleLevel> Sample_Levels(const Camera& camera)
 void Parser::Resolve_Tilt_Lens(Camera& New)
 {
 	std::string error;
-	const tilt_lens::CameraVectors vectors =
-	{
-		From_Vector(New.Location), From_Vector(New.Direction), From_Vector(New.Right), From_Vector(New.Up)
-	};
 
 	if (New.Type != PERSPECTIVE_CAMERA)
 		Error("tilt_lens is a camera type of its own and cannot be combined with another.");
-	if (!tilt_lens::ResolveTiltLens(New.Tilt_Lens.spec, vectors, New.Tilt_Lens.lens, error))
+	if (!tilt_lens::ResolveTiltLens(New.Tilt_Lens.spec, Vectors_Of(New), New.Tilt_Lens.lens, error))
 		Error("%s", error.c_str());
 	if (!New.Tilt_Lens.spec.right_given && New.Tilt_Lens.spec.Sensor_Is_Window())
 	{

@@ -14,17 +14,13 @@
 #include "backend/math/vector.h"
 #include "backend/scene/view.h"
 #include "backend/tilt_lens/statistics.h"
+#include "backend/tilt_lens/camera_vectors.h"
 
 // this must be the last file included
 #include "base/povdebug.h"
 
 namespace pov
 {
-
-static tilt_lens::Vec3d From_Vector(const VECTOR v)
-{
-	return { v[X], v[Y], v[Z] };
-}
 
 void View::GetTiltLensStatistics(POVMS_Object& renderStats)
 {
@@ -37,12 +33,8 @@ void View::GetTiltLensStatistics(POVMS_Object& renderStats)
 	for(vector<ViewThreadData *>::iterator i(viewThreadData.begin()); i != viewThreadData.end(); i++)
 		counts += (*i)->tiltLensCounts;
 
-	const tilt_lens::CameraVectors vectors =
-	{
-		From_Vector(camera.Location), From_Vector(camera.Direction), From_Vector(camera.Right), From_Vector(camera.Up)
-	};
 	const POVRect& area = viewData.renderArea;
-	const tilt_lens::FocusCounts focus = tilt_lens::CountFocus(camera.Tilt_Lens.lens, vectors,
+	const tilt_lens::FocusCounts focus = tilt_lens::CountFocus(camera.Tilt_Lens.lens, Vectors_Of(camera),
 	                                                           viewData.width, viewData.height,
 	                                                           area.left, area.top, area.right, area.bottom);
 
