@@ -168,7 +168,8 @@ static std::vector<tilt_lens::SampleLevel> Sample_Levels(const Camera& camera)
 	std::vector<tilt_lens::SampleLevel> levels;
 	const int last = max(camera.Blur_Samples, 1);
 
-	for (int n = First_Level; n < last; n *= 2)
+	// Variance 0 asks for all samples everywhere: nothing to look at in between.
+	for (int n = First_Level; (n < last) && (camera.Variance > 0.0); n *= 2)
 	{
 		if (n >= camera.Blur_Samples_Min)
 			levels.push_back({ n, camera.Variance * chdtri(n - 1.0, camera.Confidence) / (n - 1.0) });
