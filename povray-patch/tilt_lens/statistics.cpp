@@ -31,14 +31,20 @@ FocusCounts CountFocus(const TiltLens& lens, const CameraVectors& camera,
 	const double half_range = 0.5 * (std::fabs(across) + std::fabs(down));
 	FocusCounts count;
 
+	const double seen_across = Dot(lens.normal, camera.right) / width;
 	for(int y = top; y <= bottom; y++)
+	{
+		const Vec3d row = lens.direction + (0.5 / width - 0.5) * camera.right + (0.5 - (y + 0.5) / height) * camera.up;
+		const double row_seen = Dot(lens.normal, row);
+		const double row_kappa = Dot(lens.inverse_focus, row);
+
 		for(int x = left; x <= right; x++)
 		{
-			const Vec3d v = lens.direction + ((x + 0.5) / width - 0.5) * camera.right + (0.5 - (y + 0.5) / height) * camera.up;
-			const bool seen = Dot(lens.normal, v) > 0.0;
-			const Vec3d ideal = lens.distorts && seen ?
-				UndistortDirection(lens.distortion, lens.basis_x, lens.basis_y, lens.normal, v) : v;
-			const double kappa = Dot(lens.inverse_focus, ideal);
+			const bool seen = row_seen + x * seen_across > 0.0;
+			double kappa = row_kappa + x * across;
+			if(lens.distorts && seen)
+				kappa = Dot(lens.inverse_focus, UndistortDirection(lens.distortion, lens.basis_x, lens.basis_y, lens.normal,
+				                                                   row + (double(x) / width) * camera.right));
 
 			if(!seen && !lens.IsPinhole())
 				count.empty++;
@@ -49,6 +55,7 @@ FocusCounts CountFocus(const TiltLens& lens, const CameraVectors& camera,
 			else
 				count.behind++;
 		}
+	}
 	return count;
 }
 
