@@ -7,6 +7,7 @@
 
 #include "lens_spec.h"
 #include "optics.h"
+#include "ray_range.h"
 
 namespace tilt_lens
 {
@@ -374,6 +375,10 @@ void Resolve(const LensSpec& spec, const CameraVectors& camera, TiltLens& lens)
 	if(!IsFinite(lens.direction) || !IsFinite(lens.lens_x) || !IsFinite(lens.lens_y) ||
 	   !IsFinite(lens.power) || !IsFinite(lens.image_distance))
 		Refuse("tilt_lens: these numbers are too large or too small to make a lens of.");
+	if(!(ShortestDirection(lens) > ShortestRay) || !(LongestDirection(lens, camera) < LongestRay))
+		Refuse("tilt_lens: the directions of rays would be from %g to %g long, which must be within %g to %g; "
+		       "the camera, its shift or its aperture is too large or too small.",
+		       ShortestDirection(lens), LongestDirection(lens, camera), ShortestRay, LongestRay);
 
 	lens.distorts = spec.distortion_given;
 	std::copy(spec.distortion, spec.distortion + DistortionTerms, lens.distortion);

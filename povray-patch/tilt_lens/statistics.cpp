@@ -86,7 +86,8 @@ void AppendPlane(std::string& text, const TiltLens& lens)
 		return;
 	}
 	// The plane and its mirror normal are the same plane: say the angle below 90.
-	const Vec3d m = q.z < 0.0 ? -1.0 * q : q;
+	// Normalized, because the squares of a distant or near plane's q leave the numbers.
+	const Vec3d m = Normalized(q.z < 0.0 ? -1.0 * q : q);
 	Append(text, "Plane of Focus:  %.3f deg to the sensor", AngleFromAxis(m) * DegreesPerRadian);
 	if(qxy > 0.0)
 		Append(text, ", receding towards %.2f deg", TiltDirection(m) * DegreesPerRadian);

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "run_block.h"
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <exception>
+#include <fstream>
+#include <regex>
+#include <sstream>
+#include <stdexcept>
+
+#include "picture.h"
+
+const int PictureWidth = 4, PictureHeight = 3;
+
+const char* Name(Outcome outcome)
+{
+	static const char* const names[Outcomes] = {
+		"rendered", "refused by tilt_lens", "refused by the parser", "crash", "sanitizer", "hang", "not-finite", "no-picture", "no-line",
+		"nan-in-report", "not-started" };
+	return names[int(outcome)];
+}
+
+bool IsFailure(Outcome outcome)
+{
+	return int(outcome) >= int(Outcome::Crash);
+}
+
+pid_t Start(const Block& block, const std::string& povray, const std::filesystem::path& folder)
+{
+	std::filesystem::remove_all(folder);
+	std::filesystem::create_directories(folder);
+	std::ofstream(folder / "s.pov", std::ios::binary) << block.scene;
+
+	// The short name keeps "File 's.pov' line N:" on one line of POV-Ray's 80 columns.
+	std::vector<std::string> words = { povray, "-D", "+FE", "+Is.pov", "+Os.exr",
+		"+W" + std::to_string(PictureWidth), "+H" + std::to_string(PictureHeight) };
+	words.insert(words.end(), block.options.begin(), block.options.end());
+	std::vector<char*> arguments;
+	for (std::string& word : words)
+		arguments.push_back(word.data());
+	arguments.push_back(nullptr);
+
+	const pid_t process = fork();
+	if (process < 0)
+		throw std::runtime_error("cannot start another process; use fewer --jobs");
+	if (process > 0)
+		return process;
+
+	setpgid(0, 0);
+	const rlimit no_core = { 0, 0 };
+	setrlimit(RLIMIT_CORE, &no_core);
+	if (chdir(folder.c_str()) == 0)
+	{
+		const int log = open("log", O_WRONLY | O_CREAT | O_TRUNC, 0644);
+		const int nothing = open("/dev/null", O_RDONLY);
+		dup2(nothing, 0);
+		dup2(log, 1);
+		dup2(log, 2);
+		execv(povray.c_str(), arguments.data());
+	}
+	_exit(127);
+}
+
+static bool Contains(const std::string& text, const char* part)
+{
+	return text.find(part) != std::string::npos;
+}
+
+// The sphere, plane and sky of every scene are darker than 1.
+static bool AllFinite(const std::filesystem::path& file)
+{
+	const Picture picture = ReadExr(file.string());
+	return picture.width == PictureWidth && picture.height == PictureHeight &&
+		std::all_of(picture.rgb.begin(), picture.rgb.end(), [](double value) { return std::abs(value) < 2.0; });
+}
+
+static bool NamesALine(const std::string& log, const std::string& scene)
+{
+	// Upstream stops at singular matrices with "Uncategorized error", and says where and why as a possible error.
+	static const std::regex error("File 's\\.pov' line ([0-9]{1,6}): (Parse Error:|Possible Parse Error: Singular matrix)");
+	std::smatch found;
+	if (!std::regex_search(log, found, error))
+		return false;
+	const auto lines = std::count(scene.begin(), scene.end(), '\n');
+	const long line = std::stol(found[1]);
+	return line >= 1 && line <= lines + 1;
+}
+
+Outcome Judge(const Block& block, int status, const std::filesystem::path& folder)
+{
+	std::ifstream file(folder / "log", std::ios::binary);
+	std::ostringstream text;
+	text << file.rdbuf();
+	const std::string log = text.str();
+
+	if (Contains(log, "AddressSanitizer") || Contains(log, "runtime error:"))
+		return Outcome::Sanitizer;
+	if (Contains(log, "Timed out waiting for worker thread startup"))
+		return Outcome::NotStarted;
+	if (!WIFEXITED(status) || WEXITSTATUS(status) > 1)
+		return Outcome::Crash;
+	if (WEXITSTATUS(status) == 1 || Contains(log, ": Parse Error:"))    // "Possible Parse Error:" is a warning
+	{
+		if (!NamesALine(log, block.scene))
+			return Outcome::NoLine;
+		return Contains(log, "Parse Error: tilt_lens: ") ? Outcome::RefusedByTiltLens : Outcome::RefusedByParser;
+	}
+	try
+	{
+		if (!AllFinite(folder / "s.exr"))
+			return Outcome::NotFinite;
+	}
+	catch (const std::exception&)
+	{
+		return Outcome::NoPicture;
+	}
+	const auto report = log.find("\nTilt lens\n");
+	if (report != std::string::npos && Contains(log.substr(report, log.find("\n----", report) - report), "nan"))
+		return Outcome::NotANumberInReport;
+	return Outcome::Rendered;
+}

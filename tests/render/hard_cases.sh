@@ -1,0 +1,70 @@
+#!/bin/sh
+# Cameras that no lens can be, and pixels that no ray reaches (common.sh). The rest of the hard cases, which have a
+# picture, are compared with the oracle (oracle_cases.cpp).
+. "$(dirname "$0")/common.sh"
+
+# refused NAME BLOCK OUTSIDE TEXT...: a parse error that names the scene, line 3 of it, and says every TEXT.
+refused() {
+	name=$1 block=$2 outside=$3
+	shift 3
+	printf '%s\n' '// The camera ends on line 3.' "camera { tilt_lens { $block aperture_diameter 0.4 }" \
+		"$outside }" 'sphere { z * 9, 2 pigment { rgb 1 } }' > "$name.pov"
+	povray_to "$ours" "$name.exr" "$name.pov" && { fail "$name is accepted"; return; }
+	# The console breaks lines; one space each makes the text searchable.
+	said=$(sed -n '/Error:/,$p' "$name.exr.log" | tr -s '\n ' ' ')
+	for text in "File '$name.pov' line 3: Parse Error: tilt_lens:" "$@"; do
+		case $said in
+			*"$text"*) ;;
+			*) fail "$name does not say '$text' but: $said" ;;
+		esac
+	done
+	echo "$name: $said"
+}
+
+at_origin='location 0 direction z * 1.5 look_at <0, 0, 9>'
+case $case in
+refusals)
+	refused through_lens "focal_plane <1, 0, 0>, y" "$at_origin" "plane of focus of focal_plane passes through the lens centre"
+	refused points_through_lens "focal_points <1, 0, 0>, <0, 0, 5>, <2, 0, 7>" "$at_origin" "of focal_points passes through the lens centre"
+	refused point_beside "focal_plane_tilt 45" "location 0 direction z look_at z focal_point <0, 3, 3>" "through focal_point passes through the lens centre"
+	refused zero_distance "focal_distance 0" "$at_origin" "focal_distance must not be 0" "through the lens centre"
+	# q = -e_z/w
+	refused on_sensor "focal_distance -1.5 image_distance 1.5" "$at_origin" "lies on the sensor (1.5 behind the lens); no lens normal"
+	# The hinge is U / tan A away: 8 / tan 60 = 4.6188.
+	refused hinge "focal_plane_tilt 60 focal_distance 8 focal_length 45" "$at_origin" "hinge lies 4.6188 from the lens, nearer than focal_length 45" "below 4.6188"
+	# 1/w = 1/f - 1/U = 1/2 - 1 = -0.5; for a tilted lens cos(10)/2 - 1 = -0.507596.
+	refused behind_lens "focal_distance 1 focal_length 2" "$at_origin" "lies 1 from the lens along the axis, within focal_length 2" "would be -0.5, which must be greater than 0"
+	refused at_focus "focal_distance 2 focal_length 2" "$at_origin" "which must be greater than 0"
+	refused tilted_behind "lens_tilt 10 focal_distance 1 focal_length 2" "$at_origin" "would be -0.507596, which must be greater than 0"
+	refused right_angle "focal_plane_tilt 90" "$at_origin" "must lie between -90 and 90 degrees, but is 90"
+	refused line_of_points "focal_points <0, 0, 5>, <1, 0, 6>, <2, 0, 7>" "$at_origin" "lie on one line"
+	refused two_planes "lens_tilt 3 focal_plane_tilt 3" "$at_origin" "each state the plane of focus; give one of them"
+	;;
+empty)
+	# The lens plane cuts the picture at y = 1/tan 75 = 0.26795, the window ends at 0.5/1.5 and has 90 rows: rows that
+	# look beyond: 90 (0.5 - 0.26795 * 1.5) = 8.83. The statistics ask a pixel's centre and count 9 of 90 rows; the
+	# alpha of 8 is 0, and that of the ninth in between.
+	cat > empty.pov <<-EOF
+		#include "oracle-scene.inc"
+		camera { tilt_lens { lens_tilt 75 focal_distance 8 image_distance 1.5 aperture_diameter 0.2 } $view blur_samples 64 variance 0 }
+	EOF
+	render "$ours" alpha.exr empty.pov +UA
+	render "$ours" black.exr empty.pov
+	grep 'Pixels in Focus' alpha.exr.log
+	grep -q 'empty 10.00%' alpha.exr.log || fail "the statistics count other than 9 of 90 rows"
+	[ "$("$compare" empty alpha.exr)" = "8.89 1.11" ] || fail "alpha: 8 rows empty and one partly expected: $("$compare" empty alpha.exr)"
+	# Without +UA the same light, on black.
+	[ "$("$compare" empty black.exr)" = "0.00 0.00" ] || fail "transparent without +UA"
+	check "without +UA" "$compare" rms 0 alpha.exr black.exr
+	# All of the picture behind the lens plane.
+	sed 's/lens_tilt 75/lens_tilt 89 shift <0, 0.8>/' empty.pov > all.pov
+	render "$ours" all.exr all.pov +UA
+	grep 'Pixels in Focus' all.exr.log
+	grep -q 'empty 100.00%' all.exr.log || fail "not all of the picture is empty"
+	[ "$("$compare" empty all.exr)" = "100.00 0.00" ] || fail "alpha is not 0 everywhere"
+	;;
+*)
+	fail "no case '$case'"
+	;;
+esac
+finish

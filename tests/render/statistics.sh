@@ -1,0 +1,107 @@
+#!/bin/sh
+# The Tilt lens block of the render statistics, and the previews (common.sh). Numbers follow from the
+# scene by the formulas beside them, not from a render.
+. "$(dirname "$0")/common.sh"
+
+# says LOG TEXT...: the log has every text.
+says() {
+	log=$1
+	shift
+	for text in "$@"; do
+		if grep -qF -- "$text" "$log"; then
+			echo "$log: $text"
+		else
+			fail "$log does not say '$text': $(sed -n '/^Tilt lens/,/^---/p' "$log")"
+		fi
+	done
+}
+
+scene() {
+	printf '%s\n' '#include "oracle-scene.inc"' "camera { $2 location <0, 2.6, -3.5> right x * 4 / 3 up y direction z * 1.5 look_at <0, 2.6, 6> $3 }" > "$1.pov"
+}
+
+case $case in
+block)
+	# Hinge U / tan A = 4.6188; f = 1/|q + e_z/w|: q = (0, -0.216506, 0.125), e_z/w = 0.666667, so f = 1.218420 and the
+	# lens tilts by atan(0.216506 / 0.791667) = 15.295; f/d = 3.05. kappa > 0 while y < 1/tan 60 = 0.577 > 0.333.
+	scene tilted 'tilt_lens { focal_plane_tilt 60 focal_distance 8 aperture_diameter 0.4 }' 'blur_samples 64 variance 0'
+	render "$ours" tilted.exr tilted.pov
+	says tilted.exr.log 'Plane of Focus:  60.000 deg to the sensor, receding towards 0.00 deg' \
+		'Distance:      8 along the axis   Hinge:  4.6188 from the lens' \
+		'Lens Tilt:       15.295 deg   Focal Length: 1.21842   Image Distance: 1.5' 'diameter 0.4 (f/3.05)' \
+		'in front 100.00%  at infinity 0.00%  behind 0.00%  empty 0.00%' 'Effects:         none' \
+		'Samples/Pixel:   min 64  mean 64.00  max 64   Camera Rays: 691200'
+
+	# The floor: kappa = -y/2.6, no pixel of the 90 rows has it at 0 inside (45 below, 45 above), but the two middle ones
+	# touch it.
+	scene floor 'tilt_lens { focal_plane 0, y aperture_diameter 0.2 }' 'blur_samples 32, 256 variance 1/20000 confidence 0.9'
+	render "$ours" floor.exr floor.pov
+	says floor.exr.log 'Plane of Focus:  90.000 deg to the sensor' 'parallel to the axis, 2.6 from it' \
+		'Hinge:  2.6 from the lens' 'in front 48.89%  at infinity 2.22%  behind 48.89%  empty 0.00%'
+	grep 'Samples/Pixel' floor.exr.log
+	# Adaptive: from 32 to 256, the mean between them, and rays = mean x pixels.
+	grep 'Samples/Pixel' floor.exr.log | awk '{ min = $3; mean = $5; max = $7; rays = $10
+		exit !(min == 32 && max > min && max <= 256 && mean > min && mean < max &&
+			rays > 10800 * (mean - 0.006) && rays < 10800 * (mean + 0.006)) }' || fail "samples per pixel do not fit together"
+	# The shares add up, to rounding.
+	sed -n 's/%//g; s/.*in front \([0-9.]*\)  at infinity \([0-9.]*\)  behind \([0-9.]*\)  empty \([0-9.]*\).*/\1 \2 \3 \4/p' \
+		tilted.exr.log floor.exr.log | awk '{ n++; sum = $1 + $2 + $3 + $4; if (sum < 99.97 || sum > 100.03) bad = 1 }
+		END { exit bad || n != 2 }' || fail "the shares do not add up to 100"
+	# The error that it estimates is the one that it has, or a little more: the spread of half the samples, which have lost
+	# some of the evenness of all. Measured 1.45 times.
+	scene truth 'tilt_lens { focal_plane_tilt 60 focal_distance 8 aperture_diameter 0.4 }' 'blur_samples 2048 variance 0'
+	render "$ours" truth.exr truth.pov
+	estimate=$(sed -n 's/Estimated Error: \([0-9.]*\).*/\1/p' tilted.exr.log)
+	check "estimated $estimate, not too little" "$compare" rms "$(awk "BEGIN { print 1.1 * $estimate }")" tilted.exr truth.exr
+	check "estimated $estimate, at most twice too much" "$compare" differ "$(awk "BEGIN { print $estimate / 2 }")" tilted.exr truth.exr
+
+	scene plain perspective 'aperture 0.8 focal_point <0, 2.6, 4.5> blur_samples 7'
+	render "$ours" plain.exr plain.pov
+	grep -q '^Rays: ' plain.exr.log || fail "no statistics for perspective"
+	grep -qi 'tilt lens' plain.exr.log && fail "perspective has a Tilt lens block"
+	;;
+focus)
+	# One ray a pixel, in a scene whose rays cast no others.
+	cat > focus.pov <<-EOF
+		#version 3.7;
+		global_settings { assumed_gamma 1 }
+		camera {
+			tilt_lens { focal_plane_tilt 60 focal_distance 8 aperture_diameter 0.4 Show }
+			location 0 right x * 4 / 3 up y direction z * 1.5 look_at z
+			blur_samples 256 variance 0
+		}
+		plane { z, 8 pigment { rgb <0.2, 0.6, 0.2> } finish { ambient 1 diffuse 0 } }
+	EOF
+	sed 's/Show/show focus/' focus.pov > show.pov
+	render "$ours" show.ppm show.pov
+	says show.ppm.log 'Rays:              10800'
+	# The wall at z = 8 is in focus at mid-height: kappa = (1 - y tan 60)/8, and there are 135 pixels to a unit of slope, so
+	# its blur is 0.4 * 135 |y| tan 60 / 8 = 11.69 |y| pixels with y = (44.5 - row)/135: under 1 within 11.5 rows, where
+	# the wall has its colour. Beyond, it is grey.
+	check "zone of focus" "$compare" all 0.2,0.6,0.2 0,35,119,54 show.ppm
+	check "above it" "$compare" none 0.2,0.6,0.2 0,0,119,31 show.ppm
+	check "below it" "$compare" none 0.2,0.6,0.2 0,58,119,89 show.ppm
+	;;
+plane)
+	# The same wall, and a plane that cuts it at mid-height: 1/8 - kappa = y tan 10 / 8, the line is where that is within
+	# 0.005 kappa: |y| < 0.028, rows 41 to 48. Above, the plane lies behind the wall, below before it, as a tinted sheet.
+	cat > plane.pov <<-EOF
+		#version 3.7;
+		global_settings { assumed_gamma 1 }
+		camera {
+			tilt_lens { focal_plane_tilt 10 focal_distance 8 show plane }
+			location 0 right x * 4 / 3 up y direction z * 1.5 look_at z
+		}
+		plane { z, 8 pigment { rgb <0.2, 0.6, 0.2> } finish { ambient 1 diffuse 0 } }
+	EOF
+	render "$ours" plane.ppm plane.pov
+	says plane.ppm.log 'Rays:              10800'
+	check "line" "$compare" all 0.9,0.05,0.6 0,41,119,48 plane.ppm
+	check "behind the wall" "$compare" all 0.2,0.6,0.2 0,0,119,40 plane.ppm
+	check "before the wall" "$compare" all 0.326,0.501,0.272 0,49,119,89 plane.ppm
+	;;
+*)
+	fail "no case '$case'"
+	;;
+esac
+finish
