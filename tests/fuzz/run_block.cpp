@@ -9,10 +9,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <fstream>
-#include <regex>
 #include <sstream>
 #include <stdexcept>
 
@@ -23,7 +23,7 @@ const int PictureWidth = 4, PictureHeight = 3;
 const char* Name(Outcome outcome)
 {
 	static const char* const names[Outcomes] = {
-		"rendered", "refused by tilt_lens", "refused by the parser", "crash", "sanitizer", "hang", "not-finite", "no-picture", "no-line",
+		"rendered", "refused by tilt_lens", "refused by the parser", "not finite, but not a tilt_lens camera", "crash", "sanitizer", "hang", "not-finite", "no-picture", "no-line",
 		"nan-in-report", "not-started" };
 	return names[int(outcome)];
 }
@@ -85,13 +85,19 @@ static bool AllFinite(const std::filesystem::path& file)
 static bool NamesALine(const std::string& log, const std::string& scene)
 {
 	// Upstream stops at singular matrices with "Uncategorized error", and says where and why as a possible error.
-	static const std::regex error("File 's\\.pov' line ([0-9]{1,6}): (Parse Error:|Possible Parse Error: Singular matrix)");
-	std::smatch found;
-	if (!std::regex_search(log, found, error))
-		return false;
-	const auto lines = std::count(scene.begin(), scene.end(), '\n');
-	const long line = std::stol(found[1]);
-	return line >= 1 && line <= lines + 1;
+	static const char* const errors[] = { "Parse Error:", "Possible Parse Error: Singular matrix" };
+	const long lines = long(std::count(scene.begin(), scene.end(), '\n'));
+	const std::string file = "File 's.pov' line ";
+
+	for (std::size_t at = log.find(file); at != std::string::npos; at = log.find(file, at + 1))
+	{
+		char* end = nullptr;
+		const long line = std::strtol(log.c_str() + at + file.size(), &end, 10);
+		for (const char* error : errors)
+			if (std::string(": ") + error == std::string(end, strnlen(end, std::strlen(error) + 2)))
+				return line >= 1 && line <= lines + 1;
+	}
+	return false;
 }
 
 Outcome Judge(const Block& block, int status, const std::filesystem::path& folder)
@@ -116,7 +122,7 @@ Outcome Judge(const Block& block, int status, const std::filesystem::path& folde
 	try
 	{
 		if (!AllFinite(folder / "s.exr"))
-			return Outcome::NotFinite;
+			return Contains(log, "\nTilt lens\n") ? Outcome::NotFinite : Outcome::NotFiniteUpstream;
 	}
 	catch (const std::exception&)
 	{

@@ -14,6 +14,7 @@ enum class Outcome
 	Rendered,           // every pixel finite
 	RefusedByTiltLens,  // a parse error that names file and line, in the words of tilt_lens
 	RefusedByParser,    // the same from POV-Ray's own parser
+	NotFiniteUpstream,  // damage to the block has left a camera without tilt_lens: stock's own pixels
 	Crash, Sanitizer, Hang, NotFinite, NoPicture, NoLine, NotANumberInReport,
 	NotStarted          // upstream gives up when the machine is too busy to start its threads within seconds
 };
