@@ -8,25 +8,27 @@
 
 #include <vector>
 
+#include <boost/shared_ptr.hpp>
+
+#include "backend/tilt_lens/adaptive.h"
 #include "backend/tilt_lens/lens_spec.h"
+#include "backend/tilt_lens/pilot.h"
+#include "backend/tilt_lens/tile_borders.h"
 
 namespace tilt_lens
 {
-
-/// A number of samples at which a pixel may stop, and the variance of its mean
-/// below which it does.
-struct SampleLevel
-{
-	int samples;
-	double stop_below;
-};
 
 struct CameraLens
 {
 	LensSpec spec;
 	TiltLens lens;
 	std::vector<SampleLevel> levels;    ///< increasing; the last one always stops
+	boost::shared_ptr<TileBorders> borders; ///< between the tiles of one picture, whichever thread traces them
 
+	PilotRequest pilot;                 ///< what tiltcost asks for, instead of the picture
+
+	/// Which of the equally good sets of samples.
+	uint32_t Seed() const { return uint32_t(int64_t(spec.seed.value)); }
 	/// Rays leave from many points of the lens (and cover the pixel's area), not from one.
 	bool Samples_Lens() const { return spec.enabled && !Shows() && !lens.IsPinhole(); }
 	/// The preview of focus is asked for instead of the picture.

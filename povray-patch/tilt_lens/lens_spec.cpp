@@ -84,6 +84,8 @@ void CheckRanges(const LensSpec& spec)
 	if(spec.focal_distance && (std::isnan(spec.focal_distance.value) || spec.focal_distance.value == 0.0))
 		Refuse("tilt_lens: focal_distance must not be %g: the plane of focus would pass through the lens centre.",
 		       spec.focal_distance.value);
+	if(spec.seed && !((spec.seed.value >= 0.0) && (spec.seed.value <= 4294967295.0) && (spec.seed.value == std::floor(spec.seed.value))))
+		Refuse("tilt_lens: seed must be a whole number from 0 to 4294967295, but is %g.", spec.seed.value);
 	if(spec.focal_point)
 		RequireFinite("focal_point", spec.focal_point.value);
 	if(spec.focal_plane_point)

@@ -55,6 +55,9 @@ struct LensSpec
 	bool distortion_given = false;
 	double distortion[DistortionTerms] = {};
 
+	/// Which of the equally good sets of samples to take.
+	Given<double> seed;
+
 	// The preview of focus.
 	bool show_focus = false;
 	bool show_plane = false;

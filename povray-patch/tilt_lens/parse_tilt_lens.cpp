@@ -4,6 +4,8 @@
 // reserved: they are identifiers to the tokenizer and are told apart here, so
 // that scenes which use focal_length or shift as names of their own still parse.
 
+#include <cstdlib>
+
 // frame.h must always be the first POV file included (pulls in platform config)
 #include "backend/frame.h"
 #include "backend/parser/parse.h"
@@ -24,13 +26,10 @@ using tilt_lens::Vec3d;
 
 static const char Tilt_Lens_Words[] =
 	"focal_plane_tilt, lens_tilt, focal_plane, focal_points, tilt_direction, focal_distance, "
-	"image_distance, focal_length, shift, aperture_diameter, f_stop, distortion, show";
+	"image_distance, focal_length, shift, aperture_diameter, f_stop, distortion, seed, show";
 
 // Samples per pixel where the scene gives an aperture but no blur_samples.
 static const int Default_Blur_Samples = 128;
-
-// The variance of fewer samples than this says too little to stop on.
-static const int First_Level = 16;
 
 /// tilt_lens [ { WORDS } ]
 void Parser::Parse_Tilt_Lens(Camera& New)
@@ -75,7 +74,8 @@ void Parser::Parse_Tilt_Lens_Word(Camera& New)
 		{ "image_distance", &LensSpec::image_distance },
 		{ "focal_length", &LensSpec::focal_length },
 		{ "aperture_diameter", &LensSpec::aperture_diameter },
-		{ "f_stop", &LensSpec::f_stop }
+		{ "f_stop", &LensSpec::f_stop },
+		{ "seed", &LensSpec::seed }
 	};
 
 	// A name that the scene has declared arrives as that value's token.
@@ -159,27 +159,6 @@ void Parser::Parse_Tilt_Lens_Word(Camera& New)
 		Error("Unknown word '%s' in the tilt_lens block; the words are %s.", word.c_str(), Tilt_Lens_Words);
 }
 
-/// The numbers of samples at which a pixel may stop: 16, 32, 64, ... from the
-/// scene's minimum to its maximum. The measured variance is an estimate from
-/// n - 1 degrees of freedom, so it is its upper bound at the scene's confidence
-/// that must be below the scene's variance.
-static std::vector<tilt_lens::SampleLevel> Sample_Levels(const Camera& camera)
-{
-	std::vector<tilt_lens::SampleLevel> levels;
-	const int last = max(camera.Blur_Samples, 1);
-
-	// Variance 0 asks for all samples everywhere: nothing to look at in between.
-	for (int n = First_Level; (n < last) && (camera.Variance > 0.0); n *= 2)
-	{
-		if (n >= camera.Blur_Samples_Min)
-			levels.push_back({ n, camera.Variance * chdtri(n - 1.0, camera.Confidence) / (n - 1.0) });
-		if (n > last / 2)
-			break;
-	}
-	levels.push_back({ last, 0.0 });
-	return levels;
-}
-
 /// The lens from the words and the camera's final vectors; parse errors for
 /// words that contradict each other and for planes that no lens can focus.
 void Parser::Resolve_Tilt_Lens(Camera& New)
@@ -202,7 +181,9 @@ void Parser::Resolve_Tilt_Lens(Camera& New)
 	}
 	if (New.Tilt_Lens.Samples_Lens() && (New.Blur_Samples <= 0))
 		New.Blur_Samples = Default_Blur_Samples;
-	New.Tilt_Lens.levels = Sample_Levels(New);
+	New.Tilt_Lens.levels = tilt_lens::SampleLevels(New.Blur_Samples_Min, New.Blur_Samples, New.Variance, New.Confidence, &chdtri);
+	New.Tilt_Lens.borders = boost::shared_ptr<tilt_lens::TileBorders>(new tilt_lens::TileBorders());
+	New.Tilt_Lens.pilot = tilt_lens::ParsePilotRequest(getenv(tilt_lens::PilotVariable));
 }
 
 }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "backend/tilt_lens/convergence.h"
 #include "backend/tilt_lens/sampler.h"
 
 namespace tilt_lens
@@ -20,35 +21,47 @@ struct SampleSums
 	static const int Channels = 5;
 	double sum[Channels], squares[Channels];
 	int count;
-	// the sums as they stood at the last power of two below count
-	double earlier_sum[Channels];
-	int earlier_count;
 
-	SampleSums() : count(0), earlier_count(0)
+	/// Mean red, green and blue as they stood at the latest powers of two, latest first.
+	double earlier[ChangesKept + 1][3];
+	int earlier_counts[ChangesKept + 1];
+
+	SampleSums() : count(0)
 	{
 		for(int i = 0; i < Channels; i++)
-			sum[i] = squares[i] = earlier_sum[i] = 0.0;
+			sum[i] = squares[i] = 0.0;
+		for(int j = 0; j <= ChangesKept; j++)
+			earlier_counts[j] = 0;
 	}
 
 	void Add(const Colour& c)
 	{
-		if((count & (count - 1)) == 0)
-			KeepEarlier();
 		for(int i = 0; i < Channels; i++)
 		{
 			sum[i] += c[i];
 			squares[i] += double(c[i]) * double(c[i]);
 		}
 		count++;
+		if((count & (count - 1)) == 0)
+			KeepMean();
 	}
 
 	static double Square(double x) { return x * x; }
 
-	void KeepEarlier()
+	/// A picture file holds 0 to 1: what is beyond is no error that is seen.
+	static double Seen(double x) { return std::min(1.0, std::max(0.0, x)); }
+
+	void KeepMean()
 	{
-		for(int i = 0; i < Channels; i++)
-			earlier_sum[i] = sum[i];
-		earlier_count = count;
+		for(int j = ChangesKept; j > 0; j--)
+		{
+			earlier_counts[j] = earlier_counts[j - 1];
+			for(int i = 0; i < 3; i++)
+				earlier[j][i] = earlier[j - 1][i];
+		}
+		earlier_counts[0] = count;
+		for(int i = 0; i < 3; i++)
+			earlier[0][i] = Seen(sum[i] / count);
 	}
 
 	Colour Mean() const
@@ -56,26 +69,27 @@ struct SampleSums
 		return Colour(sum[0] / count, sum[1] / count, sum[2] / count, sum[3] / count, sum[4] / count);
 	}
 
-	/// Squared error of the mean, averaged over red, green and blue: what the later
-	/// half of the samples changed. Rough for one pixel, right on average over many,
-	/// and it sees what a digital net gains over independent samples.
-	double SquaredError() const
+	/// The pixel's share in the estimate of the picture's error: squared changes over
+	/// the latest powers of two, averaged over red, green and blue.
+	LevelChanges Changes() const
 	{
-		double error = 0.0;
-		for(int i = 0; (i < 3) && (earlier_count > 0); i++)
-			error += Square(earlier_sum[i] / earlier_count - sum[i] / count);
-		return error / 3.0;
+		LevelChanges c;
+
+		c.pixels = 1.0;
+		for(c.changes = 0; (c.changes < ChangesKept) && (earlier_counts[c.changes + 1] > 0); c.changes++)
+			for(int i = 0; i < 3; i++)
+				c.change[c.changes] += Square(earlier[c.changes][i] - earlier[c.changes + 1][i]) / 3.0;
+		return c;
 	}
 
-	/// Largest variance of the mean over the channels (taken as if the samples were
-	/// independent, which for a digital net is on the safe side).
-	double VarianceOfMean() const
+	/// Largest variance of a sample over the channels.
+	double Variance() const
 	{
 		double worst = 0.0;
 		for(int i = 0; i < Channels; i++)
 		{
 			const double mean = sum[i] / count;
-			worst = std::max(worst, (squares[i] / count - mean * mean) / (count - 1));
+			worst = std::max(worst, (squares[i] / count - mean * mean) * count / (count - 1));
 		}
 		return worst;
 	}
@@ -87,11 +101,11 @@ struct TilePixel
 	PixelSampler sampler;
 	SampleSums sums;
 	int x, y;
-	/// Index of the level at which the pixel by itself had converged.
-	size_t own_level;
+	/// Index of the level that it is to reach; at first, at which it had converged by itself.
+	size_t level;
 
-	TilePixel(int pixel_x, int pixel_y) :
-		sampler((uint32_t)pixel_x, (uint32_t)pixel_y), x(pixel_x), y(pixel_y), own_level(0)
+	TilePixel(int pixel_x, int pixel_y, uint32_t seed) :
+		sampler((uint32_t)pixel_x, (uint32_t)pixel_y, seed), x(pixel_x), y(pixel_y), level(0)
 	{
 	}
 };

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 //
 // The samples of one pixel: an Owen-scrambled Sobol sequence in four dimensions,
-// pixel x, pixel y, lens u, lens v. Seeded by the pixel's coordinates alone, so
-// that the picture does not depend on threads, tiles or strips.
+// pixel x, pixel y, lens u, lens v. Seeded by the pixel's coordinates and the scene's
+// `seed` alone, so that the picture does not depend on threads, tiles or strips.
 //
 // Sources: direction numbers from Joe and Kuo, "Constructing Sobol sequences with
 // better two-dimensional projections" (2008); scrambling by hashing from Burley,
@@ -113,11 +113,11 @@ inline uint64_t Mix(uint64_t z)
 class PixelSampler
 {
 	public:
-		/// x, y: the pixel's coordinates; equal coordinates give equal samples.
-		PixelSampler(uint32_t x, uint32_t y) :
-			table(sobol::DirectionTable()), index(0)
+		/// x, y: the pixel's coordinates; equal coordinates and seeds give equal samples.
+		PixelSampler(uint32_t x, uint32_t y, uint32_t scene_seed = 0) :
+			table(&sobol::DirectionTable()), index(0)
 		{
-			const uint64_t a = sobol::Mix((uint64_t(y) << 32) | x);
+			const uint64_t a = sobol::Mix(((uint64_t(y) << 32) | x) ^ (scene_seed ? sobol::Mix(scene_seed) : 0));
 			const uint64_t b = sobol::Mix(a);
 			seed[0] = uint32_t(a); seed[1] = uint32_t(a >> 32);
 			seed[2] = uint32_t(b); seed[3] = uint32_t(b >> 32);
@@ -132,7 +132,7 @@ class PixelSampler
 			const LensSample s = { Value(2), Value(3), Value(0), Value(1) };
 			const int bit = __builtin_ctz(++index);
 			for(int d = 0; d < sobol::Dimensions; d++)
-				point[d] ^= table.v[bit][d];
+				point[d] ^= table->v[bit][d];
 			return s;
 		}
 
@@ -143,7 +143,7 @@ class PixelSampler
 			return (double(bits) + 0.5) * (1.0 / 4294967296.0);
 		}
 
-		const sobol::Directions& table;
+		const sobol::Directions *table;
 		uint32_t index;
 		uint32_t seed[sobol::Dimensions];
 		uint32_t point[sobol::Dimensions];

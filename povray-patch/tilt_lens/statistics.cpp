@@ -17,8 +17,28 @@ RenderCounts& RenderCounts::operator+=(const RenderCounts& o)
 	samples += o.samples;
 	min_samples = std::min(min_samples, o.min_samples);
 	max_samples = std::max(max_samples, o.max_samples);
-	squared_error += o.squared_error;
+	for(int i = 0; i < 64; i++)
+	{
+		levels[i] += o.levels[i];
+		level_samples[i] = std::max(level_samples[i], o.level_samples[i]);
+	}
 	return *this;
+}
+
+double RenderCounts::RmsError() const
+{
+	double sum = 0.0;
+
+	for(int i = 0; i < 64; i++)
+	{
+		if(levels[i].pixels == 0.0)
+			continue;
+		double exponent;
+		const double v = levels[i].SumOfVariances(&exponent);
+		// Changes are kept up to the last power of two; go on to the number itself.
+		sum += v * std::pow(double(1u << (i / 2)) / level_samples[i], exponent);
+	}
+	return pixels > 0 ? std::sqrt(sum / double(pixels)) : 0.0;
 }
 
 FocusCounts CountFocus(const TiltLens& lens, const CameraVectors& camera,
@@ -125,7 +145,7 @@ std::string StatisticsText(const TiltLens& lens, const FocusCounts& focus, const
 	Append(text, "Effects:         %s\n", lens.distorts ? "distortion" : "none");
 	if(counts.pixels > 0)
 	{
-		const double rms = std::sqrt(counts.squared_error / double(counts.pixels));
+		const double rms = counts.RmsError();
 		Append(text, "Samples/Pixel:   min %u  mean %.2f  max %u   Camera Rays: %.0f\n", counts.min_samples,
 		       double(counts.samples) / double(counts.pixels), counts.max_samples, double(counts.samples));
 		Append(text, "Estimated Error: %.5f RMS of the picture (linear), %.2f of 255 levels\n", rms, 255.0 * rms);

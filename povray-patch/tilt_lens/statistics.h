@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <string>
 
+#include "convergence.h"
 #include "lens_spec.h"
 
 namespace tilt_lens
@@ -20,20 +21,29 @@ struct RenderCounts
 	uint64_t samples = 0;
 	unsigned int min_samples = ~0u;
 	unsigned int max_samples = 0;
-	double squared_error = 0.0;     ///< sum over the pixels of the estimated squared error
+	/// By the number of samples taken: index 2k for 2^k of them, 2k + 1 for more, up to 2^(k+1).
+	LevelChanges levels[64];
+	unsigned int level_samples[64] = {};
 
-	void AddPixel(unsigned int n, double error2)
+	void AddPixel(unsigned int n, const LevelChanges& changes)
 	{
+		const int k = 31 - __builtin_clz(n);
+		const int index = 2 * k + ((n & (n - 1)) ? 1 : 0);
+		levels[index] += changes;
+		level_samples[index] = n;
 		pixels++;
 		samples += n;
 		if(n < min_samples)
 			min_samples = n;
 		if(n > max_samples)
 			max_samples = n;
-		squared_error += error2;
 	}
 
 	RenderCounts& operator+=(const RenderCounts& o);
+
+	/// Estimated error of the picture: root of the mean over pixels, red, green and
+	/// blue of the squared error, in linear light clipped to 0..1. 0 without pixels.
+	double RmsError() const;
 };
 
 /// Pixels by where they are in focus. `infinity`: kappa passes through 0 inside the

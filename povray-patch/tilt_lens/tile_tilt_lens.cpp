@@ -47,55 +47,96 @@ void TracePixel::ConvergeTiltLensPixel(TilePixel& pixel, DBL width, DBL height)
 {
 	const vector<SampleLevel>& levels = camera.Tilt_Lens.levels;
 
-	for(pixel.own_level = 0; ; pixel.own_level++)
+	for(pixel.level = 0; ; pixel.level++)
 	{
-		SampleTiltLensPixel(pixel, levels[pixel.own_level].samples, width, height);
-		if((pixel.own_level + 1 == levels.size()) || (pixel.sums.VarianceOfMean() < levels[pixel.own_level].stop_below))
+		const SampleLevel& level = levels[pixel.level];
+		SampleTiltLensPixel(pixel, level.samples, width, height);
+		if((pixel.level + 1 == levels.size()) || (pixel.sums.Variance() < level.stop_below * level.samples))
 			break;
 	}
+	cooperate();
 }
 
 /// Traces the pixels left..right, top..bottom (inclusive) of a picture of
 /// width x height into `colours`, row by row.
-///
-/// Sixteen samples can miss what covers a few percent of the lens, and then find
-/// nothing to be uncertain about; of the nine pixels around, hardly all miss it. So a
-/// pixel takes as many samples as the neediest of its 3 x 3 neighbours by themselves.
-/// Neighbours beyond the tile are sampled too, as far as that answer needs, so that
-/// the picture does not depend on tiles, strips or threads.
 void TracePixel::TraceTiltLensTile(int left, int top, int right, int bottom, int width, int height, vector<Colour>& colours)
 {
-	const vector<SampleLevel>& levels = camera.Tilt_Lens.levels;
-	const bool adaptive = levels.size() > 1;
-	const int apron = adaptive ? 1 : 0;
-	const int l = max(left - apron, 0), r = min(right + apron, width - 1);
-	const int t = max(top - apron, 0), b = min(bottom + apron, height - 1);
-	const int columns = r - l + 1;
+	tilt_lens::CameraLens& lens = camera.Tilt_Lens;
 	vector<TilePixel> tile;
 
-	tile.reserve(columns * (b - t + 1));
-	for(int y = t; y <= b; y++)
-		for(int x = l; x <= r; x++)
-		{
-			tile.push_back(TilePixel(x, y));
-			ConvergeTiltLensPixel(tile.back(), width, height);
-			cooperate();
-		}
+	if(lens.pilot)
+	{
+		TraceTiltLensPilot(left, top, right, bottom, width, height, colours);
+		return;
+	}
 
 	for(int y = top; y <= bottom; y++)
 		for(int x = left; x <= right; x++)
-		{
-			TilePixel& pixel = tile[(y - t) * columns + (x - l)];
-			size_t level = pixel.own_level;
-			for(int ny = max(y - apron, t); ny <= min(y + apron, b); ny++)
-				for(int nx = max(x - apron, l); nx <= min(x + apron, r); nx++)
-					level = max(level, tile[(ny - t) * columns + (nx - l)].own_level);
-			SampleTiltLensPixel(pixel, levels[level].samples, width, height);
-			cooperate();
+			tile.push_back(TilePixel(x, y, lens.Seed()));
 
-			colours.push_back(pixel.sums.Mean());
-			threadData->tiltLensCounts.AddPixel(pixel.sums.count, pixel.sums.SquaredError());
+	if(lens.levels.size() > 1)
+		ConvergeTiltLensTile(tile, left, top, right, bottom, width, height);
+
+	for(vector<TilePixel>::iterator pixel = tile.begin(); pixel != tile.end(); pixel++)
+	{
+		SampleTiltLensPixel(*pixel, lens.levels[pixel->level].samples, width, height);
+		cooperate();
+		colours.push_back(pixel->sums.Mean());
+		threadData->tiltLensCounts.AddPixel(pixel->sums.count, pixel->sums.Changes());
+	}
+}
+
+/// Samples the pixels of a tile as far as they need it by themselves, and the
+/// neighbours beyond its edges too, and sets the level that each is to reach.
+/// Neighbours within the picture count wherever the tile ends, so that the picture
+/// does not depend on tiles, strips or threads.
+void TracePixel::ConvergeTiltLensTile(vector<TilePixel>& tile, int left, int top, int right, int bottom, int width, int height)
+{
+	using namespace tilt_lens;
+	CameraLens& lens = camera.Tilt_Lens;
+	TileBorders& borders = *lens.borders;
+	const int l = max(left - NeighbourReach, 0), r = min(right + NeighbourReach, width - 1);
+	const int t = max(top - NeighbourReach, 0), b = min(bottom + NeighbourReach, height - 1);
+	const int columns = r - l + 1;
+	vector<Uncertainty> uncertainty;
+	vector<TilePixel> apron;
+
+	{
+		boost::mutex::scoped_lock lock(borders.mutex);
+		borders.Look(l, t, r, b, width, height, uncertainty);
+		for(vector<TilePixel>::iterator pixel = tile.begin(); pixel != tile.end(); pixel++)
+			borders.Take(*pixel);
+	}
+
+	for(vector<TilePixel>::iterator pixel = tile.begin(); pixel != tile.end(); pixel++)
+	{
+		if(pixel->sums.count == 0)
+			ConvergeTiltLensPixel(*pixel, width, height);
+		uncertainty[(pixel->y - t) * columns + (pixel->x - l)] = ToUncertainty(pixel->sums.Variance());
+	}
+	for(int y = t; y <= b; y++)
+		for(int x = l; x <= r; x++)
+		{
+			Uncertainty& u = uncertainty[(y - t) * columns + (x - l)];
+			if(u != UnknownUncertainty)
+				continue;
+			apron.push_back(TilePixel(x, y, lens.Seed()));
+			ConvergeTiltLensPixel(apron.back(), width, height);
+			u = ToUncertainty(apron.back().sums.Variance());
 		}
+
+	{
+		boost::mutex::scoped_lock lock(borders.mutex);
+		for(int y = t; y <= b; y++)
+			for(int x = l; x <= r; x++)
+				borders.Note(x, y, uncertainty[(y - t) * columns + (x - l)]);
+		for(vector<TilePixel>::const_iterator pixel = apron.begin(); pixel != apron.end(); pixel++)
+			borders.Keep(*pixel);
+	}
+
+	const UncertaintyMap map = { &uncertainty[0], l, t, columns };
+	for(vector<TilePixel>::iterator pixel = tile.begin(); pixel != tile.end(); pixel++)
+		pixel->level = NeighbourhoodLevel(lens.levels, pixel->level, NeighbourhoodVariance(map, pixel->x, pixel->y, 0, 0, width - 1, height - 1), camera.Variance);
 }
 
 }

@@ -172,7 +172,7 @@ void TracePixel::TraceRayWithTiltLens(Colour& colour, DBL x, DBL y, DBL width, D
 		TraceRayThroughTiltLensCentre(colour, x, y, width, height);
 	else
 	{
-		tilt_lens::TilePixel pixel((int)x, (int)y);
+		tilt_lens::TilePixel pixel((int)x, (int)y, camera.Tilt_Lens.Seed());
 		SampleTiltLensPixel(pixel, camera.Tilt_Lens.levels.front().samples, width, height);
 		colour = pixel.sums.Mean();
 	}

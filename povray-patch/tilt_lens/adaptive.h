@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// When a pixel has samples enough: what `blur_samples MIN, MAX`, `variance` and
+// `confidence` mean. Free of POV-Ray: tiltcost predicts with the same functions
+// that the renderer decides with.
+
+#ifndef TILT_LENS_ADAPTIVE_H
+#define TILT_LENS_ADAPTIVE_H
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace tilt_lens
+{
+
+/// Samples per pixel before the first decision, where the scene names no MIN.
+const int DefaultFirstLevel = 16;
+/// The variance of fewer samples than this says nothing.
+const int LeastFirstLevel = 4;
+
+/// A number of samples at which a pixel may stop, and the measured variance of its
+/// mean below which it does by itself.
+struct SampleLevel
+{
+	int samples;
+	double stop_below;
+};
+
+/// The levels of a scene: powers of two (whole digital nets) from `min_samples` to
+/// `max_samples`, and `max_samples` itself, which always stops. 0 for `min_samples`
+/// means that the scene names none. The measured variance is an estimate from n - 1
+/// degrees of freedom, so its upper bound at `confidence` must be below `variance`;
+/// `chi2(df, c)` is the value that a chi-squared variable exceeds with probability c.
+/// variance 0 asks for all samples everywhere: one level.
+inline std::vector<SampleLevel> SampleLevels(int min_samples, int max_samples, double variance, double confidence,
+                                             double (*chi2)(double df, double c))
+{
+	std::vector<SampleLevel> levels;
+	const int last = std::max(max_samples, 1);
+	const int first = min_samples > 0 ? std::max(min_samples, LeastFirstLevel) : DefaultFirstLevel;
+
+	for(int n = LeastFirstLevel; (n < last) && (variance > 0.0); n *= 2)
+	{
+		if(n >= first)
+			levels.push_back({ n, variance * chi2(n - 1.0, confidence) / (n - 1.0) });
+		if(n > last / 2)
+			break;
+	}
+	levels.push_back({ last, 0.0 });
+	return levels;
+}
+
+/// A pixel's variance per sample in one byte, a quarter of an octave a step, so that
+/// a whole picture of them is small. 0 is no variance at all.
+typedef unsigned char Uncertainty;
+const Uncertainty UnknownUncertainty = 255;
+
+inline Uncertainty ToUncertainty(double variance)
+{
+	if(!(variance > 0.0))
+		return 0;
+	return Uncertainty(std::min(254.0, std::max(1.0, std::floor(4.0 * std::log2(variance) + 0.5) + 190.0)));
+}
+
+/// Inverse of ToUncertainty, within 2^(1/8) where variance lies in 2^-47 .. 2^16.
+inline double FromUncertainty(Uncertainty u)
+{
+	return u == 0 ? 0.0 : std::exp2((int(u) - 190) * 0.25);
+}
+
+/// Uncertainties of a rectangle of pixels, row by row, from pixel (left, top) on.
+struct UncertaintyMap
+{
+	const Uncertainty *first;
+	int left, top, columns;
+
+	Uncertainty operator()(int x, int y) const { return first[(y - top) * columns + (x - left)]; }
+};
+
+/// Pixels this far away count in a pixel's decision.
+const int NeighbourReach = 2;
+
+/// Variance per sample that is assumed of a pixel, from what it and its neighbours
+/// found by themselves. A few samples can miss what covers a few percent of the lens
+/// and then find nothing to be uncertain about; of 25 pixels hardly all miss it. Near
+/// neighbours count most. Beyond left..right, top..bottom (inclusive), the picture,
+/// nobody votes.
+inline double NeighbourhoodVariance(const UncertaintyMap& of, int x, int y, int left, int top, int right, int bottom)
+{
+	double near_sum = 0.0, far_sum = 0.0;
+	int near_count = 0, far_count = 0;
+
+	for(int ny = std::max(y - NeighbourReach, top); ny <= std::min(y + NeighbourReach, bottom); ny++)
+		for(int nx = std::max(x - NeighbourReach, left); nx <= std::min(x + NeighbourReach, right); nx++)
+		{
+			const double v = FromUncertainty(of(nx, ny));
+			far_sum += v;
+			far_count++;
+			if((std::abs(nx - x) <= 1) && (std::abs(ny - y) <= 1))
+			{
+				near_sum += v;
+				near_count++;
+			}
+		}
+	return 0.5 * (near_sum / near_count + far_sum / far_count);
+}
+
+/// Index of the level that a pixel goes on to: not below `own_level`, at which it
+/// would stop by itself, and with a variance of the mean below `variance` if its own
+/// variance per sample is that of its neighbourhood.
+inline size_t NeighbourhoodLevel(const std::vector<SampleLevel>& levels, size_t own_level, double neighbourhood_variance, double variance)
+{
+	size_t level = own_level;
+	while((level + 1 < levels.size()) && !(neighbourhood_variance < variance * levels[level].samples))
+		level++;
+	return level;
+}
+
+}
+
+#endif

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// The pilot render, by which tiltcost learns what a scene's accuracy costs: small
+// blocks spread over the picture at its full size, every pixel with the same large
+// number of samples, and the sums on the way written to a file.
+//
+// Asked for in the environment, because a scene is not to be changed for it:
+//   TILT_LENS_PILOT=BLOCKS,SAMPLES,FILE
+// The picture itself stays black outside the blocks.
+
+#ifndef TILT_LENS_PILOT_H
+#define TILT_LENS_PILOT_H
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace tilt_lens
+{
+
+/// Pixels along the side of a block.
+const int PilotBlockSize = 8;
+
+/// Name of the environment's variable.
+const char PilotVariable[] = "TILT_LENS_PILOT";
+
+struct PilotRequest
+{
+	int blocks = 0;             ///< how many are wanted; 0: no pilot
+	int samples = 0;            ///< per pixel, a power of two
+	std::string file;           ///< appended to, one block at a time
+
+	explicit operator bool() const { return blocks > 0; }
+};
+
+/// The request in a text such as "64,256,/tmp/pilot.txt"; none for a null pointer or
+/// a text that says something else.
+PilotRequest ParsePilotRequest(const char *text);
+
+/// A pilot's blocks in a picture of width x height pixels: true at
+/// [(y / PilotBlockSize) * columns + x / PilotBlockSize], columns = ceil(width /
+/// PilotBlockSize). Spread evenly by Roberts' R2 sequence; fewer than asked for where
+/// two fall together.
+std::vector<bool> PilotBlocks(const PilotRequest& request, int width, int height);
+
+/// The sums of one pixel at one power of two.
+struct PilotLevel
+{
+	int samples;
+	double mean[3];             ///< red, green, blue, linear
+	double variance;            ///< of a sample, the largest of the channels; 0 for one sample
+};
+
+/// One block as text:
+///   block LEFT TOP WIDTH HEIGHT SECONDS
+/// (pixels; CPU seconds for all its samples), then row by row a line a pixel:
+///   N MEAN_R MEAN_G MEAN_B VARIANCE, for N = 1, 2, 4, ... up to the samples.
+std::string PilotText(int left, int top, int width, int height, double seconds, const std::vector<std::vector<PilotLevel> >& pixels);
+
+}
+
+#endif

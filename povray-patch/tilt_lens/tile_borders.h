@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// What the tiles of a picture know of each other. A pixel's decision looks a little
+// beyond its tile; sampling those neighbours again for every tile would cost a
+// quarter more rays.
+
+#ifndef TILT_LENS_TILE_BORDERS_H
+#define TILT_LENS_TILE_BORDERS_H
+
+#include <cstddef>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include <boost/thread/mutex.hpp>
+
+#include "backend/tilt_lens/adaptive.h"
+
+namespace tilt_lens
+{
+
+struct TilePixel;
+
+/// Shared by all threads of a render. What is kept is what any tile would find by
+/// itself, so the picture does not depend on which tile comes first.
+class TileBorders
+{
+	public:
+		TileBorders();
+		~TileBorders();
+
+		/// Copies the uncertainties of left..right, top..bottom (inclusive) of a picture of
+		/// width x height into `known`, row by row, UnknownUncertainty where no tile has been yet.
+		void Look(int left, int top, int right, int bottom, int width, int height, std::vector<Uncertainty>& known);
+
+		/// Hands over the pixel if another tile has begun it; false if not.
+		bool Take(TilePixel& pixel);
+
+		/// Notes a pixel's uncertainty.
+		void Note(int x, int y, Uncertainty uncertainty);
+
+		/// Keeps a pixel that belongs to another tile for it.
+		void Keep(const TilePixel& pixel);
+
+		/// Held while any of the above is called.
+		boost::mutex mutex;
+	private:
+		TileBorders(const TileBorders&);
+		TileBorders& operator=(const TileBorders&);
+
+		typedef std::map<std::pair<int, int>, TilePixel> Pixels;
+		int pictureWidth, pictureHeight;
+		std::vector<Uncertainty> noted;
+		Pixels *begun;                  // by (y, x)
+};
+
+}
+
+#endif
