@@ -129,7 +129,7 @@ void SolveExact(const Task& task, const std::string& model, Poses poses, Calibra
 
 }
 
-Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, double pitch_mm, const Transfer& transfer, const DetectOptions& options)
+Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, double pitch_mm, const Transfer& transfer, const DetectOptions& options, const EdgeChoice& choice)
 {
 	Task task;
 	task.board = board;
@@ -144,7 +144,7 @@ Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, doubl
 		state.tilted = !task.states.empty();
 		for (const std::string& file : s.files)
 		{
-			Photo photo = MeasurePhoto(file, board, transfer, options);
+			Photo photo = MeasurePhoto(file, board, transfer, options, choice);
 			LogPhoto(photo, ++number, total);
 			CheckSize(task, photo);
 			state.photos.push_back(std::move(photo));

@@ -71,7 +71,7 @@ void RefuseTooFewEdges(const Task& task, const std::vector<Observation>& observa
 	for (size_t s = 0; s < count.size(); ++s)
 		if (count[s] < 20)
 			throw Refused(fmt::format("state {}: only {} edges could be measured, 20 are needed: "
-				"use a smaller blur, a larger picture of the board, or more photographs", task.states[s].name, count[s]));
+				"use a smaller blur, a larger picture of the board, more photographs, or more --edges-per-photo", task.states[s].name, count[s]));
 }
 
 Solution Solve(LensModel model, const Task& task, const Geometry& geometry)
