@@ -106,6 +106,9 @@ std::vector<Row> MeasureAll(Source& source, const std::string& data, int draws)
 	{
 		Row all = rows[k];
 		all.vary = "edges";
+		// Of all edges of given photographs there is but one choice.
+		if (source.ShareUsed({ most, 0 }) > 0)
+			all.scatter = -1;
 		rows.push_back(all);
 	}
 	return rows;

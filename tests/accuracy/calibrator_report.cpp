@@ -8,7 +8,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace calibrator_cost
 {
@@ -76,11 +78,35 @@ struct Panel
 	bool scatter;
 	const char* seconds;
 	const char* degrees;
+	const char* key;
 };
+
+/// "[a:b]" around the panel's points: whole decades would waste most of it.
+std::pair<std::string, std::string> Ranges(const std::vector<Row>& rows, const Panel& panel)
+{
+	double x0 = 1e30, x1 = 0, y0 = 1e30, y1 = 0;
+	for (const Row& r : rows)
+	{
+		const double y = panel.scatter ? r.scatter : r.rms;
+		if (r.data != panel.data || r.answers == 0 || !(y > 0))
+			continue;
+		x0 = std::min(x0, r.Seconds());
+		x1 = std::max(x1, r.Seconds());
+		y0 = std::min(y0, y);
+		y1 = std::max(y1, y);
+	}
+	const auto range = [](double least, double most, double margin)
+	{
+		return least <= most ? fmt::format("[{:.4g}:{:.4g}]", least / margin, most * margin) : std::string("[*:*]");
+	};
+	return { range(x0, x1, 1.4), range(y0, y1, 1.6) };
+}
 
 std::string PanelScript(const std::vector<Row>& rows, const Panel& panel, size_t number)
 {
-	const struct { const char* model; const char* colour; } models[] = { { "paper", "#d55e00" }, { "rigid", "#009e73" }, { "plane", "#0072b2" } };
+	// Labels above or below the points, away from the curve nearby: rigid has less error, and more scatter.
+	const double side = panel.scatter ? 0.8 : -0.8;
+	const struct { const char* model; const char* colour; double label; } models[] = { { "paper", "#d55e00", 0.8 }, { "rigid", "#009e73", side }, { "plane", "#0072b2", -side } };
 	std::string blocks, curves, labels;
 	for (const auto& m : models)
 		for (const char* const vary : { "photos", "edges" })
@@ -88,23 +114,28 @@ std::string PanelScript(const std::vector<Row>& rows, const Panel& panel, size_t
 			const bool by_photos = vary == std::string("photos");
 			const std::string name = fmt::format("{}_{}_{}", m.model, vary, number);
 			blocks += Block(rows, name, panel.data, vary, m.model, panel.scatter);
-			curves += fmt::format("{}${} using 1:2 with linespoints lc rgb '{}' lw 2 dt {} pt {} ps 0.7 title '{}, {}'", curves.empty() ? "" : ", ", name, m.colour,
-				by_photos ? "1" : "'-'", by_photos ? 7 : 6, m.model, by_photos ? "photographs" : "edges");
+			curves += fmt::format("{}${} using 1:2 with linespoints lc rgb '{}' lw 2 dt {} pt {} ps 0.7 title '{}: {}'", curves.empty() ? "" : ", ", name, m.colour,
+				by_photos ? "1" : "'-'", by_photos ? 7 : 6, m.model, by_photos ? "photographs per state (numbers)" : "edges per photograph, 12 to all");
 			if (by_photos)
-				labels += fmt::format(", ${} using 1:2:3 with labels offset 0,0.8 font 'Sans,9' tc rgb '{}' notitle", name, m.colour);
+				labels += fmt::format(", ${} using 1:2:3 with labels offset 0,{} font 'Sans,9' tc rgb '{}' notitle", name, m.label, m.colour);
 		}
-	return blocks + fmt::format("set title {}\nset xlabel {}\nset ylabel {}\n{}\nplot {}{}\n", tiltcal::GnuplotString(panel.title), tiltcal::GnuplotString(panel.seconds),
-		tiltcal::GnuplotString(panel.degrees), number == 0 ? "set key bottom left" : "unset key", curves, labels);
+	const auto [x, y] = Ranges(rows, panel);
+	return blocks + fmt::format("set title {}\nset xlabel {}\nset ylabel {}\nset xrange {}\nset yrange {}\n{}\nplot {}{}\n", tiltcal::GnuplotString(panel.title),
+		tiltcal::GnuplotString(panel.seconds), tiltcal::GnuplotString(panel.degrees), x, y, panel.key, curves, labels);
 }
 
 std::string PlotScript(const std::vector<Row>& rows)
 {
+	// The thin lens leaves its upper right corner free in every run: the paper's model is quick and far off.
 	const Panel panels[] = {
-		{ "Photographs: error", "photographs", false, "CPU seconds: detecting, measuring, solving", "RMS error of the tilt [degrees]" },
-		{ "Photographs: scatter alone", "photographs", true, "CPU seconds: detecting, measuring, solving", "standard deviation of the tilt [degrees]" },
-		{ "Exact thin lens, 0.06 px noise: error", "thin lens", false, "CPU seconds: solving", "RMS error of the tilt [degrees]" },
+		{ "Photographs: error", "photographs", false, "CPU seconds: detecting, measuring, solving", "RMS error of the tilt [degrees]", "unset key" },
+		{ "Photographs: scatter alone", "photographs", true, "CPU seconds: detecting, measuring, solving", "standard deviation of the tilt [degrees]", "unset key" },
+		{ "Exact thin lens, 0.06 px noise: error", "thin lens", false, "CPU seconds: solving", "RMS error of the tilt [degrees]",
+			"set key top right samplen 3 spacing 1.1 font 'Sans,9'" },
 	};
-	std::string script = "set logscale xy\nset grid lc rgb '#dddddd'\nset multiplot layout 1,3\n";
+	std::string script = "set logscale xy\nset grid xtics ytics mytics lt 1 lc rgb '#cccccc', lt 1 lc rgb '#eeeeee'\n"
+		"set xtics (0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200)\n"
+		"set ytics (0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10)\nset multiplot layout 1,3\n";
 	for (size_t k = 0; k < std::size(panels); ++k)
 		script += PanelScript(rows, panels[k], k);
 	return script + "unset multiplot\n";

@@ -46,10 +46,10 @@ public:
 	// Of all photographs and all edges there is one choice; of some edges, one per phase.
 	int Draws(const Effort& e, int wanted) const override
 	{
-		return e.edges ? std::min(wanted, 4) : std::min(wanted, static_cast<int>(Choices(Photos(), e.photos)));
+		return e.edges ? std::min(wanted, 3) : std::min(wanted, static_cast<int>(Choices(Photos(), e.photos)));
 	}
 
-	double ShareUsed(const Effort& e) const override { return e.edges ? std::min(1.0, e.edges / 157.0) : double(e.photos) / Photos(); }
+	double ShareUsed(const Effort& e) const override { return e.edges ? std::min(1.0, e.edges / double(tiltcal::SpreadOrder(board, 0).size())) : double(e.photos) / Photos(); }
 	double DrawsExisting(const Effort& e) const override { return e.edges ? 0 : Choices(Photos(), e.photos); }
 
 	tiltcal::Task Draw(const Effort& effort, int k, int draws, Preparation& preparation) override
@@ -137,7 +137,7 @@ public:
 	explicit ThinLensSource(bool upright) : upright_stop(upright) {}
 
 	int Photos() const override { return 6; }
-	int Draws(const Effort&, int wanted) const override { return wanted; }
+	int Draws(const Effort&, int wanted) const override { return std::min(wanted, 4); }
 	double ShareUsed(const Effort&) const override { return 0; }
 	double DrawsExisting(const Effort&) const override { return 0; }
 
