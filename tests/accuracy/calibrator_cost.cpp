@@ -3,7 +3,7 @@
 // What the calibrator's accuracy costs: error of the found tilt against CPU seconds, by
 // number of photographs, edges per photograph and model, on photographs and on an ideal lens.
 //
-//   calibrator_cost --photos DIR --out DIR [--draws 6]
+//   calibrator_cost --photos DIR --out DIR [--draws 6]    (about 3 CPU minutes)
 //
 // The truth of the photographs is the mechanical tilt, 5 and -5 degrees towards 0
 // (scenes/boxes/photos/README.md). Their lens's field curvature biases every model alike;
@@ -138,7 +138,7 @@ int main(int argc, char** argv)
 	int draws = 6;
 	app.add_option("--photos", photos, "Folder of untilted-*.png (or .jpg), plus5-*, minus5-*")->required();
 	app.add_option("--out", out, "Folder for calibrator-cost.csv, .html and .svg")->required();
-	app.add_option("--draws", draws, "Choices of photographs, of edges or of noise per point")->capture_default_str()->check(CLI::Range(1, 100));
+	app.add_option("--draws", draws, "Choices of photographs per point; of edges at most 3, of noise at most 4")->capture_default_str()->check(CLI::Range(1, 100));
 	try
 	{
 		app.parse(argc, argv);
@@ -150,7 +150,7 @@ int main(int argc, char** argv)
 		const std::vector<Row> exact = MeasureAll(*ThinLens(true), "thin lens", draws);
 		Append(rows, exact);
 		fmt::print(stderr, "thin lens with its own tilted rim\n");
-		Append(rows, Measure(*ThinLens(false), "thin lens, tilted rim", "photos", { 6, 0 }, draws));
+		Append(rows, Measure(*ThinLens(false), "thin lens with tilted rim", "photos", { 6, 0 }, draws));
 		WriteReport(rows, out);
 		fmt::print(stderr, "{} CPU seconds in all; written to {}\n", int(CpuSeconds()), out);
 		return ExactModelsAreUnbiased(exact) ? 0 : tiltcal::EXIT_REFUSED;
