@@ -109,26 +109,27 @@ bool PosesAreShared(const Task& task, const std::vector<Vec3<double>>& normals, 
 
 /// The exact model. The distortion turns with the lens, so lens and geometry are solved
 /// in turn: the lens moves the distortion's axis, the geometry hardly moves the lens.
-void SolveExact(const Task& task, Poses poses, Calibration& c)
+void SolveExact(const Task& task, const std::string& model, Poses poses, Calibration& c)
 {
-	spdlog::info("solving geometry and lens (plane)");
+	const auto solve = model == "rigid" ? SolveRigid : SolvePlane;
+	spdlog::info("solving geometry and lens ({})", model);
 	c.geometry = SelectGeometry(task, {});
-	c.solution = SolvePlane(task, c.geometry);
+	c.solution = solve(task, c.geometry);
 	GeometryOptions options{ 0, LensNormals(c.solution), false };
 	options.shared_poses = PosesAreShared(task, options.lens_normal, poses);
 	for (int round = 0; round < 2; ++round)
 	{
 		c.geometry = SelectGeometry(task, options);
-		c.solution = SolvePlane(task, c.geometry);
+		c.solution = solve(task, c.geometry);
 		options.lens_normal = LensNormals(c.solution);
 	}
 	c.pinhole = SolveGeometry(task, { 0, {}, options.shared_poses });
-	c.render = c.geometry.distortion_terms ? SolvePlane(task, c.pinhole) : c.solution;
+	c.render = c.geometry.distortion_terms ? solve(task, c.pinhole) : c.solution;
 }
 
 }
 
-Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, double pitch_mm, const Transfer& transfer, const DetectOptions& options)
+Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, double pitch_mm, const Transfer& transfer, const DetectOptions& options, const EdgeChoice& choice)
 {
 	Task task;
 	task.board = board;
@@ -143,7 +144,7 @@ Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, doubl
 		state.tilted = !task.states.empty();
 		for (const std::string& file : s.files)
 		{
-			Photo photo = MeasurePhoto(file, board, transfer, options);
+			Photo photo = MeasurePhoto(file, board, transfer, options, choice);
 			LogPhoto(photo, ++number, total);
 			CheckSize(task, photo);
 			state.photos.push_back(std::move(photo));
@@ -157,8 +158,8 @@ Calibration Calibrate(const Task& task, const std::string& model, Poses poses)
 {
 	Calibration c;
 	c.task = task;
-	if (model == "plane")
-		SolveExact(task, poses, c);
+	if (model != "paper")
+		SolveExact(task, model, poses, c);
 	else
 		c.geometry = c.pinhole = SolveGeometry(task, {});
 	WarnOfOddPhotos(task, c.geometry);

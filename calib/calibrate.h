@@ -5,6 +5,7 @@
 
 #include "calibration.h"
 #include "detect.h"
+#include "measure.h"
 #include "transfer.h"
 
 #include <string>
@@ -23,7 +24,7 @@ struct StateFiles
 /// Measures every photograph, with progress on the log. States come out in the order
 /// given; the first is the untilted one. Throws Error: unreadable, no board, sizes differ.
 Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, double pitch_mm,
-	const Transfer& transfer, const DetectOptions& options);
+	const Transfer& transfer, const DetectOptions& options, const EdgeChoice& choice = {});
 
 /// Whether photograph n shows the board in the same pose in every state.
 enum class Poses
@@ -33,7 +34,7 @@ enum class Poses
 	OWN
 };
 
-/// Solves everything. `model` is "plane" or "paper"; the paper's model is always solved
+/// Solves everything. `model` is "plane", "rigid" or "paper"; the paper's model is always solved
 /// too, and only refused when it was the one asked for. Throws Refused.
 Calibration Calibrate(const Task& task, const std::string& model, Poses poses);
 

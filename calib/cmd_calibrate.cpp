@@ -27,7 +27,11 @@ struct Options
 	double square = 0, pitch = 0;
 	std::vector<std::string> untilted, tilted;
 	DetectOptions detect;
+	EdgeChoice edges;
 };
+
+/// Six edges of each direction reach all quarters of the board (test_spread_order.cpp).
+const int FEWEST_EDGES = 12;
 
 /// NAME becomes part of POV-Ray identifiers and of file names.
 void CheckName(const std::string& name, const std::string& option)
@@ -57,10 +61,10 @@ std::vector<StateFiles> States(const Options& o)
 
 void CheckModel(const std::string& model)
 {
-	if (model == "rigid" || model == "curved")
-		throw UsageError(fmt::format("--model {}: not built into this version; it has plane and paper", model));
-	if (model != "plane" && model != "paper")
-		throw UsageError(fmt::format("--model {}: there is plane (exact) and paper", model));
+	if (model == "curved")
+		throw UsageError(fmt::format("--model {}: not built into this version; it has plane, rigid and paper", model));
+	if (model != "plane" && model != "rigid" && model != "paper")
+		throw UsageError(fmt::format("--model {}: there is plane (exact), rigid (exact, ideal mount) and paper", model));
 }
 
 Poses ParsePoses(const std::string& text)
@@ -83,10 +87,12 @@ void Run(const Options& o)
 	const Poses poses = ParsePoses(o.poses);
 	if (!(o.pitch > 0 && o.pitch < 1))
 		throw UsageError(fmt::format("--pitch {}: give the distance of pixel centres on the sensor in mm, such as 0.00655", o.pitch));
+	if (o.edges.most != 0 && o.edges.most < FEWEST_EDGES)
+		throw UsageError(fmt::format("--edges-per-photo {}: give 0 for all edges, or at least {}", o.edges.most, FEWEST_EDGES));
 	const std::vector<StateFiles> states = States(o);
 	PrepareFolder(o.out);
 
-	const Calibration c = Calibrate(MeasureAll(states, board, o.pitch, transfer, o.detect), o.model, poses);
+	const Calibration c = Calibrate(MeasureAll(states, board, o.pitch, transfer, o.detect, o.edges), o.model, poses);
 	WriteEverything(c, transfer, o.out);
 	fmt::print("{}", SummaryTable(c));
 	fmt::print("written to {}\n", o.out);
@@ -104,9 +110,12 @@ void AddCalibrate(CLI::App& app)
 	c->add_option("--pitch", o->pitch, "Distance of pixel centres on the sensor, mm")->required();
 	c->add_option("--untilted", o->untilted, "Photographs with the lens untilted: names or quoted patterns")->required();
 	c->add_option("--tilted", o->tilted, "NAME='GLOB': photographs of one tilted state; may be repeated");
-	c->add_option("--model", o->model, "plane: exact, free plane of focus per state; paper: Baba, Nakane, Hiura (3), (4), (1)")->capture_default_str();
+	c->add_option("--model", o->model, "plane: exact, free plane of focus per state; rigid: exact, the lens only turns and keeps f and w; "
+		"paper: Baba, Nakane, Hiura (3), (4), (1)")->capture_default_str();
 	c->add_option("--transfer", o->transfer, "Transfer curve of 8 and 16 bit pictures: srgb, linear or a gamma; OpenEXR is linear")->capture_default_str();
 	c->add_option("--poses", o->poses, "shared: photograph n shows the board in one pose in every state; own: not; auto: see for itself")->capture_default_str();
+	c->add_option("--edges-per-photo", o->edges.most, "Measure only N edges of every photograph, spread evenly over the board and both directions: "
+		"faster, less accurate. 0: all")->capture_default_str();
 	c->add_flag("--any-orientation", o->detect.any_orientation, "Accept a board that stands upside down (a mirrored picture looks the same)");
 	c->add_option("--out", o->out, "Folder for calibration.json, camera-<state>.inc, overlays and report; created if missing")->required();
 	c->footer("Example:\n  tiltcal calibrate --board 12x9 --square 25 --pitch 0.02 --untilted 'target/untilted-*.png' \\\n"

@@ -24,6 +24,7 @@ std::string GnuplotString(const std::string& text)
 
 bool Plot(const std::string& file, const std::string& script, int width, int height)
 {
+	const bool svg = file.size() > 4 && file.compare(file.size() - 4, 4, ".svg") == 0;
 	try
 	{
 		WriteAtomically(file, [&](const std::string& temporary)
@@ -33,8 +34,8 @@ bool Plot(const std::string& file, const std::string& script, int width, int hei
 			FILE* pipe = popen("gnuplot 2>/dev/null >/dev/null", "w");
 			if (!pipe)
 				return false;
-			const std::string whole = fmt::format("set encoding utf8\nset terminal pngcairo size {},{} font 'Sans,11' noenhanced\nset output {}\n{}\n",
-				width, height, GnuplotString(temporary), script);
+			const std::string whole = fmt::format("set encoding utf8\nset terminal {} size {},{} font 'Sans,11' noenhanced\nset output {}\n{}\n",
+				svg ? "svg background 'white'" : "pngcairo", width, height, GnuplotString(temporary), script);
 			std::fwrite(whole.data(), 1, whole.size(), pipe);
 			const bool good = pclose(pipe) == 0;
 			std::signal(SIGPIPE, previous);

@@ -8,8 +8,8 @@
 namespace tiltcal
 {
 
-/// Runs gnuplot on `script` (terminal and output are set here) and leaves the PNG in
-/// `file`, atomically. Returns false, with a warning on the log, when gnuplot is missing
+/// Runs gnuplot on `script` (terminal and output are set here) and leaves the picture in
+/// `file`, atomically: SVG when that is its suffix, else PNG. `width` and `height` in pixels. Returns false, with a warning on the log, when gnuplot is missing
 /// or fails: a plot is an extra, not a reason to lose the results.
 bool Plot(const std::string& file, const std::string& script, int width, int height);
 

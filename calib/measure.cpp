@@ -4,12 +4,14 @@
 
 #include "edge_fit.h"
 #include "image_io.h"
+#include "spread_order.h"
 
 #include <Eigen/Dense>
 #include <opencv2/calib3d.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace tiltcal
 {
@@ -264,44 +266,44 @@ bool Intersect(const std::vector<Edge>& edges, Corner& corner)
 
 }
 
-void MeasureEdges(const cv::Mat& grey, const Board& board, Photo& photo)
+void MeasureEdges(const cv::Mat& grey, const Board& board, Photo& photo, const EdgeChoice& choice)
 {
 	const Grid grid(photo, board);
-	struct Task { int i, j; bool along_columns; };
-	std::vector<Task> tasks;
-	for (int j = 0; j < board.InnerRows(); ++j)
-		for (int i = 0; i < board.InnerColumns(); ++i)
-		{
-			if (i + 1 < board.InnerColumns())
-				tasks.push_back({ i, j, true });
-			if (j + 1 < board.InnerRows())
-				tasks.push_back({ i, j, false });
-		}
-	std::vector<Edge> edges(tasks.size());
-	std::vector<char> measured(tasks.size(), 0);
-	cv::parallel_for_(cv::Range(0, static_cast<int>(tasks.size())), [&](const cv::Range& range)
+	const std::vector<EdgePlace> places = SpreadOrder(board, choice.phase);
+	const size_t wanted = choice.most > 0 ? std::min(size_t(choice.most), places.size()) : places.size();
+	std::vector<Edge> edges(places.size());
+	std::vector<char> measured(places.size(), 0);
+	size_t tried = 0, found = 0;
+	// Edges that fail are replaced by the next in the order.
+	while (found < wanted && tried < places.size())
 	{
-		for (int k = range.start; k < range.end; ++k)
+		const size_t end = std::min(tried + wanted - found, places.size());
+		cv::parallel_for_(cv::Range(static_cast<int>(tried), static_cast<int>(end)), [&](const cv::Range& range)
 		{
-			const size_t t = static_cast<size_t>(k);
-			measured[t] = MeasureEdge(grey, grid, tasks[t].i, tasks[t].j, tasks[t].along_columns, edges[t]);
-		}
-	});
+			for (int k = range.start; k < range.end; ++k)
+			{
+				const size_t t = static_cast<size_t>(k);
+				measured[t] = MeasureEdge(grey, grid, places[t].column, places[t].row, places[t].along_columns, edges[t]);
+			}
+		});
+		found += static_cast<size_t>(std::count(measured.begin() + static_cast<long>(tried), measured.begin() + static_cast<long>(end), 1));
+		tried = end;
+	}
 	photo.edges.clear();
-	int clipped = 0;
-	for (size_t k = 0; k < tasks.size(); ++k)
+	for (size_t k = 0; k < tried; ++k)
 		if (measured[k])
-		{
 			photo.edges.push_back(edges[k]);
-			clipped += edges[k].high > 0.995;
-		}
-	photo.edges_dropped = static_cast<int>(tasks.size() - photo.edges.size());
-	photo.saturated_share = photo.edges.empty() ? 0 : clipped / double(photo.edges.size());
+	// Row by row again: sums do not depend on the order in which the edges were chosen.
+	std::sort(photo.edges.begin(), photo.edges.end(), [](const Edge& a, const Edge& b)
+		{ return std::tuple(a.row, a.column, b.along_columns) < std::tuple(b.row, b.column, a.along_columns); });
+	const auto clipped = std::count_if(photo.edges.begin(), photo.edges.end(), [](const Edge& e) { return e.high > 0.995; });
+	photo.edges_dropped = static_cast<int>(tried - photo.edges.size());
+	photo.saturated_share = photo.edges.empty() ? 0 : double(clipped) / double(photo.edges.size());
 	for (Corner& corner : photo.corners)
 		Intersect(photo.edges, corner);
 }
 
-Photo MeasurePhoto(const std::string& file, const Board& board, const Transfer& transfer, const DetectOptions& options, cv::Mat* grey)
+Photo MeasurePhoto(const std::string& file, const Board& board, const Transfer& transfer, const DetectOptions& options, const EdgeChoice& choice, cv::Mat* grey)
 {
 	const cv::Mat linear = Luminance(ReadLinear(file, transfer));
 	Photo photo;
@@ -309,7 +311,7 @@ Photo MeasurePhoto(const std::string& file, const Board& board, const Transfer& 
 	photo.width = linear.cols;
 	photo.height = linear.rows;
 	photo.corners = DetectCorners(linear, board, options, file);
-	MeasureEdges(linear, board, photo);
+	MeasureEdges(linear, board, photo, choice);
 	if (grey)
 		*grey = linear;
 	return photo;

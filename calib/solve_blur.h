@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 //
-// From measured blur widths to the lens: two models of the same photographs.
+// From measured blur widths to the lens: three models of the same photographs.
 
 #ifndef TILTCAL_SOLVE_BLUR_H
 #define TILTCAL_SOLVE_BLUR_H
@@ -20,6 +20,13 @@ namespace tiltcal
 /// refusal. Robust loss; measured sigmas plus a common model error.
 /// Throws Refused when the photographs do not determine d, U or a state's q.
 Solution SolvePlane(const Task& task, const Geometry& geometry);
+
+/// The exact model of an ideal mount: SolvePlane, but the lens only turns about its centre and
+/// keeps f, w and d in all states, so that q follows from the tilt by the vector lens equation,
+/// q = n/f - e_z/w. Two unknowns per tilted state instead of three; the less a lens keeps to
+/// this (a pivot away from the pupil), the more its tilt is off. Search, loss, sigmas and
+/// refusals are SolvePlane's, except that the focal length cannot decide between two planes.
+Solution SolveRigid(const Task& task, const Geometry& geometry);
 
 /// The paper's model, printed equations (3), (4) and (1): stage 1 over all untilted
 /// photographs for R, T, U, w, d; stage 2 one unknown tan(theta_F) per tilted state.

@@ -25,23 +25,33 @@ Vec Normal(const Lens& lens)
 	return { -std::sin(phi) * std::sin(t), -std::cos(phi) * std::sin(t), std::cos(t) };
 }
 
+/// Image of P, by Gauss's equation along the lens's own axis.
+Vec Image(const Lens& lens, const Vec& P)
+{
+	const Real s = P.dot(Normal(lens));                 // object distance
+	const Real image = 1 / (1 / Real(lens.f) - 1 / s);
+	return -P * (image / s);                            // the centre ray is straight
+}
+
 /// Where the ray from P through the lens point S hits the sensor z = -w; in the upright
 /// picture, mm from the principal point, y up.
 Eigen::Matrix<Real, 2, 1> Hit(const Lens& lens, const Vec& P, const Vec& S)
 {
-	const Vec n = Normal(lens);
-	const Real s = P.dot(n);                            // object distance along the lens axis
-	const Real image = 1 / (1 / Real(lens.f) - 1 / s);  // Gauss
-	const Vec Q = -P * (image / s);                     // the centre ray is straight
-	const Vec ray = Q - S;
+	const Vec ray = Image(lens, P) - S;
 	const Real t = (-Real(lens.w) - S.z()) / ray.z();
 	const Vec hit = S + t * ray;
 	return { -hit.x(), -hit.y() };
 }
 
-/// Width of the footprint of the lens's rim along the picture direction (nx, ny), px.
+/// Width of the footprint of the aperture along the picture direction (nx, ny), px.
 double Width(const Lens& lens, const Vec& P, double nx, double ny, std::mt19937& random)
 {
+	if (lens.upright_stop)
+	{
+		// The cone from the stop (z = 0) to the image, cut at z = -w: similar triangles.
+		const Real z = Image(lens, P).z();
+		return double(lens.d * std::abs((lens.w + z) / z)) / PITCH;
+	}
 	const Vec n = Normal(lens);
 	const Vec a = n.unitOrthogonal(), b = n.cross(a);
 	std::uniform_real_distribution<double> phase(0, 2 * 3.14159265358979);

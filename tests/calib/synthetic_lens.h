@@ -18,6 +18,9 @@ struct Lens
 	double tilt = 0, direction = 0;        // degrees; as reported by tiltcal
 	double cx = 899.5, cy = 599.5;         // principal point, px
 	double floor = 0;                      // the lens's own blur, px
+	/// The aperture is a stop right behind the lens and parallel to the sensor, so that a point's
+	/// blur is a circle; otherwise the lens's own tilted rim, whose blur is an ellipse.
+	bool upright_stop = false;
 
 	/// Distance along the axis at which this lens is in focus on the sensor, mm.
 	double FocusDistance() const;

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -80,6 +81,29 @@ TEST(Detect, CornersAndBlurOfAPaintedBoard)
 	for (const Edge& e : photo.edges)
 		// The kernel's rim is rough by one sub-pixel of 1/4 px on the radius.
 		EXPECT_NEAR(e.blur, 2 * radius, 0.15) << e.column << " " << e.row;
+}
+
+TEST(Detect, ChosenEdgesAreTheSameEdges)
+{
+	const Painted painted = Paint(12, 9, 4);
+	const Board board = ParseBoard("12x9", 25);
+	Photo all, some;
+	all.corners = some.corners = DetectCorners(painted.image, board, {}, "painted");
+	MeasureEdges(painted.image, board, all);
+	for (const int most : { 8, 41, 157, 1000 })
+	{
+		MeasureEdges(painted.image, board, some, { most, 0 });
+		EXPECT_EQ(some.edges.size(), size_t(std::min(most, 157)));
+		for (const Edge& e : some.edges)
+		{
+			const auto same = std::find_if(all.edges.begin(), all.edges.end(), [&](const Edge& a)
+				{ return a.column == e.column && a.row == e.row && a.along_columns == e.along_columns; });
+			ASSERT_NE(same, all.edges.end());
+			// Each call starts from corners that the one before has refined, by some 0.05 px.
+			EXPECT_NEAR(e.blur, same->blur, 0.05);
+		}
+		EXPECT_EQ(some.corners.size(), 88u);
+	}
 }
 
 TEST(Detect, MirroredAndTurnedBoards)

@@ -92,5 +92,17 @@ one_photo)
 	got=$?
 	[ "$got" = 0 ] || [ "$got" = 1 ] || fail "exit code $got"
 	[ "$got" = 1 ] || says "principal point" ;;
+rigid_files)
+	expect 0 calibrate --model rigid --board 12x9 --square 25 --pitch 0.02 --untilted "$target/untilted-[1-3].jpg" \
+		--tilted plus5="$target/plus5-[1-3].jpg" --edges-per-photo 40 --out result
+	prints '^plus5  *rigid'
+	says 'plus5-1.jpg: 88 corners, 40 edges'
+	grep -q '"model": "rigid"' result/calibration.json || fail "calibration.json does not name the model"
+	grep -q '(model rigid)' result/camera-plus5.inc || fail "camera-plus5.inc does not name the model"
+	[ -s result/overlay-plus5-3.png ] || fail "no overlay" ;;
+bad_edges_per_photo)
+	for n in -1 3 11 2.5 many; do calibrate 2 "--edges-per-photo.*$n" "$target/untilted-1.jpg" --edges-per-photo=$n; done ;;
+few_edges) # twelve edges of one photograph do not make a calibration
+	calibrate 1 "only 12 edges.*--edges-per-photo" "$target/untilted-1.jpg" --edges-per-photo 12 ;;
 *) echo "unknown case $case"; exit 99 ;;
 esac

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "blur_fit.h"
+
+#include "error.h"
+#include "solve_geometry.h"
+
+#include <ceres/ceres.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tiltcal
+{
+
+namespace
+{
+
+struct BlurCost
+{
+	LensModel model;
+	Vec3<double> P;
+	double blur, weight, w_px, w_mm;
+
+	template<typename T>
+	bool operator()(const T* d, const T* floor_squared, const T* power, const T* state, T* residual) const
+	{
+		using std::sqrt;
+		const Vec3<T> q = PlaneOfState(model, power, state, w_mm);
+		const T b = tilt_lens::SignedBlurWidth(T(w_px), *d, q, Vec3<T>{ T(P.x), T(P.y), T(P.z) });
+		// The tiny constant keeps the root smooth where blur and floor both vanish.
+		residual[0] = weight * (sqrt(b * b + *floor_squared + T(1e-6)) - blur);
+		return true;
+	}
+};
+
+using BlurCostFunction = ceres::AutoDiffCostFunction<BlurCost, 1, 1, 1, 1, 3>;
+
+/// Holds what the model does not have, and what the untilted state keeps at 0.
+void HoldUnused(LensModel model, size_t state, Unknowns& x, ceres::Problem& problem)
+{
+	double* const own = x.state[state].data();
+	if (!problem.HasParameterBlock(own))
+		return;
+	if (model == LensModel::PLANE && state == 0)
+		problem.SetManifold(own, new ceres::SubsetManifold(3, { 0, 1 }));
+	if (model == LensModel::RIGID && state == 0)
+		problem.SetParameterBlockConstant(own);
+	if (model == LensModel::RIGID && state > 0)
+		problem.SetManifold(own, new ceres::SubsetManifold(3, { 2 }));
+}
+
+void Build(const BlurFit& fit, ceres::Problem& problem, Unknowns& x, Free free, size_t state)
+{
+	for (const Observation& o : fit.observations)
+	{
+		if (free != Free::EVERYTHING && o.state != state)
+			continue;
+		const double weight = 1 / std::hypot(o.sigma, fit.model_sigma);
+		problem.AddResidualBlock(new BlurCostFunction(new BlurCost{ fit.model, o.P, o.blur, weight, fit.w_px, fit.w_mm }),
+			new ceres::HuberLoss(2.0), &x.d, &x.floor_squared, &x.power, x.state[o.state].data());
+	}
+	problem.SetParameterLowerBound(&x.floor_squared, 0, 0);
+	for (size_t s = 0; s < x.state.size(); ++s)
+		HoldUnused(fit.model, s, x, problem);
+	if (fit.model == LensModel::PLANE || free == Free::ONE_STATE)
+		problem.SetParameterBlockConstant(&x.power);
+	if (free == Free::ONE_STATE)
+	{
+		problem.SetParameterBlockConstant(&x.d);
+		problem.SetParameterBlockConstant(&x.floor_squared);
+	}
+}
+
+/// d(d, floor^2, q of every state) / d(all unknowns), by automatic derivatives.
+Eigen::MatrixXd PlanesByUnknowns(const BlurFit& fit, const Unknowns& x)
+{
+	using Jet = ceres::Jet<double, 4>;
+	const int states = int(x.state.size());
+	Eigen::MatrixXd J = Eigen::MatrixXd::Zero(2 + 3 * states, 3 + 3 * states);
+	J(0, 0) = J(1, 1) = 1;
+	for (int s = 0; s < states; ++s)
+	{
+		const StateNumbers& own = x.state[size_t(s)];
+		const Jet power(x.power, 0), state[3] = { Jet(own[0], 1), Jet(own[1], 2), Jet(own[2], 3) };
+		const Vec3<Jet> q = PlaneOfState(fit.model, &power, state, fit.w_mm);
+		const Jet* const rows[] = { &q.x, &q.y, &q.z };
+		for (int r = 0; r < 3; ++r)
+		{
+			J(2 + 3 * s + r, 2) = rows[r]->v[0];
+			J.block<1, 3>(2 + 3 * s + r, 3 + 3 * s) = rows[r]->v.tail<3>().transpose();
+		}
+	}
+	return J;
+}
+
+}
+
+std::vector<Observation> Observe(const Task& task, const Geometry& g)
+{
+	std::vector<Observation> all;
+	for (size_t s = 0; s < task.states.size(); ++s)
+		for (size_t p = 0; p < task.states[s].photos.size(); ++p)
+			for (const Edge& e : task.states[s].photos[p].edges)
+				all.push_back({ s, EdgeInCamera(task, g.poses[s][p], e), e.blur, e.blur_sigma });
+	return all;
+}
+
+double BlurFit::Residual(const Observation& o, const Unknowns& x) const
+{
+	double r = 0;
+	BlurCost{ model, o.P, o.blur, 1, w_px, w_mm }(&x.d, &x.floor_squared, &x.power, x.state[o.state].data(), &r);
+	return r;
+}
+
+Vec3<double> BlurFit::Plane(const Unknowns& x, size_t state) const
+{
+	return PlaneOfState(model, &x.power, x.state[state].data(), w_mm);
+}
+
+double BlurFit::Minimise(Unknowns& x, Free free, size_t state) const
+{
+	ceres::Problem problem;
+	Build(*this, problem, x, free, state);
+	ceres::Solver::Options options;
+	options.linear_solver_type = ceres::DENSE_QR;
+	options.max_num_iterations = 100;
+	options.function_tolerance = 1e-10;
+	options.logging_type = ceres::SILENT;
+	ceres::Solver::Summary summary;
+	ceres::Solve(options, &problem, &summary);
+	x.d = std::abs(x.d);
+	return summary.IsSolutionUsable() ? summary.final_cost : 1e300;
+}
+
+double BlurFit::Scale(const Unknowns& x) const
+{
+	std::vector<double> r;
+	for (const Observation& o : observations)
+		r.push_back(std::abs(Residual(o, x)));
+	std::nth_element(r.begin(), r.begin() + long(r.size() / 2), r.end());
+	return 1.4826 * r[r.size() / 2];
+}
+
+Eigen::MatrixXd BlurFit::CovarianceOfPlanes(Unknowns x) const
+{
+	ceres::Problem problem;
+	Build(*this, problem, x, Free::EVERYTHING, 0);
+	double cost = 0;
+	problem.Evaluate(ceres::Problem::EvaluateOptions(), &cost, nullptr, nullptr, nullptr);
+	ceres::Covariance::Options options;
+	options.algorithm_type = ceres::DENSE_SVD;
+	options.min_reciprocal_condition_number = 1e-22;
+	ceres::Covariance covariance(options);
+	std::vector<const double*> blocks{ &x.d, &x.floor_squared, &x.power };
+	for (StateNumbers& state : x.state)
+		blocks.push_back(state.data());
+	if (!covariance.Compute(blocks, &problem))
+		throw Refused("the blur does not determine the lens: photograph inclined boards whose blur differs clearly from one end to the other");
+	const int n = 3 + 3 * int(x.state.size());
+	Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> c(n, n);
+	covariance.GetCovarianceMatrix(blocks, c.data());
+	int free_unknowns = 0;
+	for (int k = 0; k < n; ++k)
+		free_unknowns += c(k, k) > 0;
+	const double freedom = std::max(1, problem.NumResiduals() - free_unknowns);
+	const Eigen::MatrixXd J = PlanesByUnknowns(*this, x);
+	return J * c * J.transpose() * (2 * cost / freedom);
+}
+
+}

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// The least squares of the exact models: measured blur widths against b = w d |1 - q.P| / z.
+
+#ifndef TILTCAL_BLUR_FIT_H
+#define TILTCAL_BLUR_FIT_H
+
+#include "calibration.h"
+#include "lens_model.h"
+
+#include <Eigen/Core>
+
+#include <vector>
+
+namespace tiltcal
+{
+
+/// One measured edge.
+struct Observation
+{
+	size_t state;
+	Vec3<double> P;       // camera frame, mm
+	double blur, sigma;   // px
+};
+
+/// Every edge of the task, placed by `geometry`'s poses.
+std::vector<Observation> Observe(const Task& task, const Geometry& geometry);
+
+struct Unknowns
+{
+	double d = 0;              // mm
+	double floor_squared = 1;  // px^2; squared, because the blur does not change with floor at 0
+	double power = 0;          // 1/f, 1/mm; RIGID only
+	std::vector<StateNumbers> state;
+};
+
+/// Which unknowns move in a fit.
+enum class Free
+{
+	UNTILTED,    ///< d, floor and the untilted state, on its edges
+	ONE_STATE,   ///< one tilted state's own numbers, on its edges
+	EVERYTHING
+};
+
+struct BlurFit
+{
+	LensModel model;
+	const std::vector<Observation>& observations;
+	double w_px, w_mm;
+	double model_sigma;    ///< px: what the model leaves out, common to all edges
+
+	/// Predicted minus measured, px.
+	double Residual(const Observation& o, const Unknowns& x) const;
+
+	Vec3<double> Plane(const Unknowns& x, size_t state) const;
+
+	/// Robust fit from x, in place; `state` counts for ONE_STATE. Returns the final cost (half the
+	/// weighted sum of squares), 1e300 without convergence.
+	double Minimise(Unknowns& x, Free free, size_t state) const;
+
+	/// Standard deviation of the residuals, robust: 1.4826 median |residual|, px.
+	double Scale(const Unknowns& x) const;
+
+	/// Covariance of d, floor^2 and q of every state, in that order, rescaled by the
+	/// residuals; w is held. Throws Refused when the fit is singular.
+	Eigen::MatrixXd CovarianceOfPlanes(Unknowns x) const;
+};
+
+}
+
+#endif

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// What the exact models take a lens for: which numbers give a state's plane of focus.
+// They differ in nothing else (solve_blur.h).
+
+#ifndef TILTCAL_LENS_MODEL_H
+#define TILTCAL_LENS_MODEL_H
+
+#include <tilt_lens/optics.h>
+
+#include <array>
+
+namespace tiltcal
+{
+
+using tilt_lens::Vec3;
+
+enum class LensModel
+{
+	PLANE,   ///< q itself, free in every tilted state
+	RIGID    ///< the lens turns about its centre and keeps f and w: q = n/f - e_z/w
+};
+
+/// A state's own numbers. PLANE: q, 1/mm. RIGID: n_x/n_z, n_y/n_z of the lens normal n, and
+/// an unused 0; both are 0 without tilt, so nothing is singular there.
+using StateNumbers = std::array<double, 3>;
+
+/// q of a state, 1/mm. `power` is the common 1/f (1/mm; RIGID only), w in mm.
+template<typename T>
+inline Vec3<T> PlaneOfState(LensModel model, const T* power, const T* state, double w_mm)
+{
+	if (model == LensModel::PLANE)
+		return { state[0], state[1], state[2] };
+	return tilt_lens::PlaneFromLens(tilt_lens::Normalized(Vec3<T>{ state[0], state[1], T(1) }), *power, T(1 / w_mm));
+}
+
+/// The numbers of the state whose plane of focus is q; RIGID keeps only q's lens normal.
+inline StateNumbers StateOfPlane(LensModel model, const Vec3<double>& q, double w_mm)
+{
+	if (model == LensModel::PLANE)
+		return { q.x, q.y, q.z };
+	const Vec3<double> n = tilt_lens::LensFromPlane(q, 1 / w_mm).normal;
+	return { n.x / n.z, n.y / n.z, 0 };
+}
+
+}
+
+#endif

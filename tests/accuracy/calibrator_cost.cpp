@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// What the calibrator's accuracy costs: error of the found tilt against CPU seconds, by
+// number of photographs, edges per photograph and model, on photographs and on an ideal lens.
+//
+//   calibrator_cost --photos DIR --out DIR [--draws 6]    (about 3 CPU minutes)
+//
+// The truth of the photographs is the mechanical tilt, 5 and -5 degrees towards 0
+// (scenes/boxes/photos/README.md). Their lens's field curvature biases every model alike;
+// scatter, over draws of photographs or edges, is what effort buys.
+// Exit codes of tiltcal; 1 also when an exact model is biased on exact data.
+
+#include "calibrate.h"
+#include "calibrator_report.h"
+#include "error.h"
+#include "files.h"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <opencv2/core.hpp>
+#include <spdlog/spdlog.h>
+
+#include <map>
+
+namespace
+{
+
+using namespace calibrator_cost;
+
+const double TRUE_TILT[] = { 0, 5, -5 };
+
+/// One effort on one source, all models on the same draws.
+std::vector<Row> Measure(Source& source, const std::string& data, const std::string& vary, const Effort& effort, int wanted)
+{
+	const int draws = source.Draws(effort, wanted);
+	std::vector<Row> rows;
+	std::map<std::string, std::vector<std::vector<TiltError>>> errors;
+	for (const char* const model : { "paper", "rigid", "plane" })
+	{
+		Row row;
+		row.data = data;
+		row.vary = vary;
+		row.model = model;
+		row.effort = effort;
+		row.draws = draws;
+		rows.push_back(row);
+	}
+	for (int k = 0; k < draws; ++k)
+	{
+		Preparation preparation;
+		const tiltcal::Task task = source.Draw(effort, k, draws, preparation);
+		for (Row& row : rows)
+		{
+			const double start = CpuSeconds();
+			try
+			{
+				const tiltcal::Calibration c = tiltcal::Calibrate(task, row.model, tiltcal::Poses::AUTO);
+				std::vector<TiltError> found;
+				for (size_t s = 1; s < c.solution.states.size(); ++s)
+					found.push_back(ErrorOf(c.solution.states[s].lens_tilt.value, c.solution.states[s].tilt_direction.value, TRUE_TILT[s]));
+				errors[row.model].push_back(found);
+			}
+			catch (const tiltcal::Error& e)
+			{
+				if (e.Code() != tiltcal::EXIT_REFUSED)
+					throw;
+				fmt::print(stderr, "  {} refused: {}\n", row.model, e.what());
+			}
+			row.solving += (CpuSeconds() - start) / draws;
+			row.preparation.detection += preparation.detection / draws;
+			row.preparation.measuring += preparation.measuring / draws;
+		}
+	}
+	for (Row& row : rows)
+	{
+		Summarise(errors[row.model], source.ShareUsed(effort), source.DrawsExisting(effort), row);
+		fmt::print(stderr, "  {:<6} {} of {} draws: error {:.4f}, bias {:.4f}, scatter {:.4f} degrees; solved in {:.2f} s\n", row.model, row.answers, row.draws,
+			row.rms, row.bias, row.scatter, row.solving);
+	}
+	return rows;
+}
+
+void Append(std::vector<Row>& rows, std::vector<Row> more) { rows.insert(rows.end(), more.begin(), more.end()); }
+
+/// One photograph more or fewer, then one edge more or fewer.
+std::vector<Row> MeasureAll(Source& source, const std::string& data, int draws)
+{
+	std::vector<Row> rows;
+	const int most = source.Photos();
+	for (int photos = 1; photos <= most; ++photos)
+	{
+		fmt::print(stderr, "{}: {} photographs per state, all edges\n", data, photos);
+		Append(rows, Measure(source, data, "photos", { photos, 0 }, draws));
+	}
+	// Of all photographs there is but one choice; leaving out one at a time shows its scatter (jackknife).
+	const size_t n = rows.size();
+	for (size_t k = n - 3; k < n && most > 1; ++k)
+		if (rows[k].scatter < 0 && rows[k - 3].scatter >= 0)
+			rows[k].scatter = rows[k - 3].scatter * std::sqrt((most - 1.0) / most);
+	for (const int edges : { 12, 20, 40, 80 })
+	{
+		fmt::print(stderr, "{}: {} photographs per state, {} edges each\n", data, most, edges);
+		Append(rows, Measure(source, data, "edges", { most, edges }, draws));
+	}
+	for (size_t k = n - 3; k < n; ++k)
+	{
+		Row all = rows[k];
+		all.vary = "edges";
+		// Of all edges of given photographs there is but one choice.
+		if (source.ShareUsed({ most, 0 }) > 0)
+			all.scatter = -1;
+		rows.push_back(all);
+	}
+	return rows;
+}
+
+/// The exact models must be right where their assumptions hold: within the noise of
+/// the mean and the 0.01 degrees of what is of second order in the aperture.
+bool ExactModelsAreUnbiased(const std::vector<Row>& rows)
+{
+	bool good = true;
+	for (const Row& row : rows)
+		if (row.model != "paper" && row.answers > 1 && row.bias > 0.01 + 4 * row.scatter / std::sqrt(double(row.answers)))
+		{
+			fmt::print(stderr, "calibrator_cost: model {} is biased by {:.4f} degrees on exact data ({} photographs, {} edges)\n", row.model, row.bias,
+				row.effort.photos, row.effort.edges);
+			good = false;
+		}
+	return good;
+}
+
+}
+
+int main(int argc, char** argv)
+{
+	CLI::App app("Error of tiltcal's tilt against CPU seconds.");
+	std::string photos, out;
+	int draws = 6;
+	app.add_option("--photos", photos, "Folder of untilted-*.png (or .jpg), plus5-*, minus5-*")->required();
+	app.add_option("--out", out, "Folder for calibrator-cost.csv, .html and .svg")->required();
+	app.add_option("--draws", draws, "Choices of photographs per point; of edges at most 3, of noise at most 4")->capture_default_str()->check(CLI::Range(1, 100));
+	try
+	{
+		app.parse(argc, argv);
+		spdlog::set_level(spdlog::level::off);
+		cv::setNumThreads(1);
+		tiltcal::PrepareFolder(out);
+		fmt::print(stderr, "detecting the boards in {}\n", photos);
+		std::vector<Row> rows = MeasureAll(*Photographs(photos), "photographs", draws);
+		const std::vector<Row> exact = MeasureAll(*ThinLens(true), "thin lens", draws);
+		Append(rows, exact);
+		fmt::print(stderr, "thin lens with its own tilted rim\n");
+		Append(rows, Measure(*ThinLens(false), "thin lens with tilted rim", "photos", { 6, 0 }, draws));
+		WriteReport(rows, out);
+		fmt::print(stderr, "{} CPU seconds in all; written to {}\n", int(CpuSeconds()), out);
+		return ExactModelsAreUnbiased(exact) ? 0 : tiltcal::EXIT_REFUSED;
+	}
+	catch (const CLI::ParseError& e)
+	{
+		return app.exit(e) == 0 ? 0 : tiltcal::EXIT_USAGE;
+	}
+	catch (const tiltcal::Error& e)
+	{
+		fmt::print(stderr, "calibrator_cost: error: {}\n", e.what());
+		return e.Code();
+	}
+}

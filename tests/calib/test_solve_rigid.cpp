@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// The rigid model on lenses that are rigid, and on one that is not.
+
+#include "calibrate.h"
+#include "error.h"
+#include "solve_blur.h"
+#include "synthetic_lens.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+
+using namespace tiltcal;
+using synthetic::Lens;
+using synthetic::MakeTask;
+using synthetic::Noise;
+using synthetic::Photograph;
+
+struct Case
+{
+	double tilt, direction;
+};
+
+class RigidTilt : public testing::TestWithParam<Case> {};
+
+TEST_P(RigidTilt, ComesBackFromExactBlur)
+{
+	Lens untilted, tilted;
+	// With an upright stop first order, b = w d |1 - q.P| / z, is the whole blur.
+	untilted.upright_stop = tilted.upright_stop = true;
+	tilted.tilt = GetParam().tilt;
+	tilted.direction = GetParam().direction;
+	const Calibration c = Calibrate(MakeTask({ Photograph("untilted", untilted, {}), Photograph("tilted", tilted, {}) }), "rigid", Poses::AUTO);
+	const Solution& s = c.solution;
+	EXPECT_EQ(s.model, "rigid");
+	// Nothing is approximated: only the solvers' tolerances are left. As vectors, because
+	// 2 degrees at 90 is -2 degrees at -90.
+	const double found = s.states[1].lens_tilt.value, phi = s.states[1].tilt_direction.value * M_PI / 180, true_phi = tilted.direction * M_PI / 180;
+	EXPECT_NEAR(found * std::sin(phi), tilted.tilt * std::sin(true_phi), 0.001);
+	EXPECT_NEAR(found * std::cos(phi), tilted.tilt * std::cos(true_phi), 0.001);
+	EXPECT_NEAR(s.aperture_diameter.value, 16, 0.002);
+	EXPECT_NEAR(s.focal_length.value, untilted.f, 0.001);
+	EXPECT_NEAR(s.states[1].focal_length.value, s.focal_length.value, 1e-9);
+	EXPECT_NEAR(s.states[1].focus_distance.value, tilted.FocusDistance(), 0.1);
+	EXPECT_LT(s.rms_blur, 0.002);
+}
+
+INSTANTIATE_TEST_SUITE_P(Tilts, RigidTilt, testing::Values(Case{ 0, 0 }, Case{ 5, 0 }, Case{ -5, 0 }, Case{ 5, 30 }, Case{ -3, 75 }, Case{ 7, -40 }, Case{ 2, 90 }),
+	[](const auto& tested) { return "case" + std::to_string(tested.index); });
+
+TEST(SolveRigid, NoiseComesOutAsSigmaSmallerThanOfPlane)
+{
+	Lens untilted, tilted;
+	untilted.floor = tilted.floor = 1;
+	untilted.upright_stop = tilted.upright_stop = true;
+	tilted.tilt = 5;
+	tilted.direction = 30;
+	const Noise noise{ 0.03, 0.06, 11 };
+	const Task task = MakeTask({ Photograph("untilted", untilted, noise), Photograph("tilted", tilted, noise) });
+	const Calibration rigid = Calibrate(task, "rigid", Poses::AUTO), plane = Calibrate(task, "plane", Poses::AUTO);
+	const StateLens& lens = rigid.solution.states[1];
+	EXPECT_NEAR(lens.lens_tilt.value, 5, 4 * lens.lens_tilt.sigma);
+	EXPECT_NEAR(lens.tilt_direction.value, 30, 4 * lens.tilt_direction.sigma);
+	// One unknown less per state cannot be known worse.
+	EXPECT_LT(lens.lens_tilt.sigma, plane.solution.states[1].lens_tilt.sigma);
+	EXPECT_GT(lens.lens_tilt.sigma, 0.0003);
+	EXPECT_GT(lens.focus_distance.sigma, 0);
+}
+
+TEST(SolveRigid, ThreeStatesShareOneLens)
+{
+	Lens untilted, plus, minus;
+	plus.tilt = 5;
+	minus.tilt = -5;
+	const Noise noise{ 0.03, 0.06, 4 };
+	const Calibration c = Calibrate(MakeTask({ Photograph("untilted", untilted, noise), Photograph("plus", plus, noise), Photograph("minus", minus, noise) }), "rigid", Poses::AUTO);
+	// 4 sigma and the 0.03 degrees of the ellipse that first order leaves out (test_solve.cpp).
+	EXPECT_NEAR(c.solution.states[1].lens_tilt.value, 5, 4 * c.solution.states[1].lens_tilt.sigma + 0.03);
+	EXPECT_NEAR(c.solution.states[2].lens_tilt.value, -5, 4 * c.solution.states[2].lens_tilt.sigma + 0.03);
+	EXPECT_NEAR(c.solution.states[1].focal_length.value, c.solution.states[2].focal_length.value, 1e-9);
+}
+
+TEST(SolveRigid, OneTiltedPhotographHasNoMirrorImage)
+{
+	// The mirror image of the plane of focus in the board asks for another focal length,
+	// which this model does not have.
+	Lens untilted, tilted;
+	tilted.tilt = 5;
+	const Noise noise{ 0.02, 0.05, 8 };
+	const Calibration c = Calibrate(MakeTask({ Photograph("untilted", untilted, noise), Photograph("tilted", tilted, noise, 1) }), "rigid", Poses::AUTO);
+	// The one board's own pose is known to 0.1 degrees or so, and the tilt no better.
+	EXPECT_NEAR(c.solution.states[1].lens_tilt.value, 5, 0.2);
+}
+
+TEST(SolveRigid, UntiltedAlone)
+{
+	Lens lens;
+	const Task task = MakeTask({ Photograph("untilted", lens, {}) });
+	const Calibration c = Calibrate(task, "rigid", Poses::AUTO);
+	// Untilted both models are the same.
+	const Calibration plane = Calibrate(task, "plane", Poses::AUTO);
+	EXPECT_NEAR(c.solution.focus_distance.value, plane.solution.focus_distance.value, 1e-3);
+	EXPECT_NEAR(c.solution.focus_distance.sigma, plane.solution.focus_distance.sigma, 1e-3);
+}
+
+TEST(SolveRigid, ALensThatIsRefocusedFitsWorseThanInPlane)
+{
+	// Another focal length in the tilted state: rigid must show that it does not hold.
+	Lens untilted, tilted;
+	tilted.tilt = 5;
+	tilted.f = 44.4;
+	const Noise noise{ 0.02, 0.05, 9 };
+	const Task task = MakeTask({ Photograph("untilted", untilted, noise), Photograph("tilted", tilted, noise) });
+	EXPECT_GT(Calibrate(task, "rigid", Poses::AUTO).solution.rms_blur, 2 * Calibrate(task, "plane", Poses::AUTO).solution.rms_blur);
+}
+
+}
