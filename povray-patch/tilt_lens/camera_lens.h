@@ -11,6 +11,7 @@
 #include <boost/shared_ptr.hpp>
 
 #include "backend/tilt_lens/adaptive.h"
+#include "backend/tilt_lens/denoised_picture.h"
 #include "backend/tilt_lens/lens_spec.h"
 #include "backend/tilt_lens/pilot.h"
 #include "backend/tilt_lens/tile_borders.h"
@@ -25,12 +26,15 @@ struct CameraLens
 	std::vector<SampleLevel> levels;    ///< increasing; the last one always stops
 	boost::shared_ptr<TileBorders> borders; ///< between the tiles of one picture, whichever thread traces them
 
+	boost::shared_ptr<DenoisedPicture> denoised; ///< where the scene asks for it, else null
 	PilotRequest pilot;                 ///< what tiltcost asks for, instead of the picture
 
 	/// Which of the equally good sets of samples.
 	uint32_t Seed() const { return uint32_t(int64_t(spec.seed.value)); }
 	/// Rays leave from many points of the lens (and cover the pixel's area), not from one.
 	bool Samples_Lens() const { return spec.enabled && !Shows() && !lens.IsPinhole(); }
+	/// The picture is traced in a first pass and shown in a second.
+	bool Denoises() const { return denoised && Samples_Lens() && !pilot; }
 	/// The preview of focus is asked for instead of the picture.
 	bool Shows() const { return spec.show_focus || spec.show_plane; }
 };

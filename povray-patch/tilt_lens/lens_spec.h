@@ -55,6 +55,9 @@ struct LensSpec
 	bool distortion_given = false;
 	double distortion[DistortionTerms] = {};
 
+	/// Let pixels learn from their neighbours.
+	bool denoise = false;
+
 	/// Which of the equally good sets of samples to take.
 	Given<double> seed;
 

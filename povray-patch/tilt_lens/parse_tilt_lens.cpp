@@ -26,7 +26,7 @@ using tilt_lens::Vec3d;
 
 static const char Tilt_Lens_Words[] =
 	"focal_plane_tilt, lens_tilt, focal_plane, focal_points, tilt_direction, focal_distance, "
-	"image_distance, focal_length, shift, aperture_diameter, f_stop, distortion, seed, show";
+	"image_distance, focal_length, shift, aperture_diameter, f_stop, distortion, denoise, seed, show";
 
 // Samples per pixel where the scene gives an aperture but no blur_samples.
 static const int Default_Blur_Samples = 128;
@@ -152,6 +152,8 @@ void Parser::Parse_Tilt_Lens_Word(Camera& New)
 			spec.distortion[i] = Parse_Float();
 		}
 	}
+	else if (word == "denoise")
+		spec.denoise = true;
 	else if (word == "show")
 	{
 		Get_Token();
@@ -191,6 +193,8 @@ void Parser::Resolve_Tilt_Lens(Camera& New)
 		New.Blur_Samples = Default_Blur_Samples;
 	New.Tilt_Lens.levels = tilt_lens::SampleLevels(New.Blur_Samples_Min, New.Blur_Samples, New.Variance, New.Confidence, &chdtri);
 	New.Tilt_Lens.borders = boost::shared_ptr<tilt_lens::TileBorders>(new tilt_lens::TileBorders());
+	if (New.Tilt_Lens.spec.denoise)
+		New.Tilt_Lens.denoised = boost::shared_ptr<tilt_lens::DenoisedPicture>(new tilt_lens::DenoisedPicture());
 	New.Tilt_Lens.pilot = tilt_lens::ParsePilotRequest(getenv(tilt_lens::PilotVariable));
 }
 

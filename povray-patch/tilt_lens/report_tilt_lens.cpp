@@ -38,7 +38,9 @@ void View::GetTiltLensStatistics(POVMS_Object& renderStats)
 	                                                           viewData.width, viewData.height,
 	                                                           area.left, area.top, area.right, area.bottom);
 
-	renderStats.SetString(kPOVAttrib_TiltLensReport, tilt_lens::StatisticsText(camera.Tilt_Lens.lens, focus, counts).c_str());
+	const double denoised = camera.Tilt_Lens.Denoises() ? camera.Tilt_Lens.denoised->RmsError() : -1.0;
+
+	renderStats.SetString(kPOVAttrib_TiltLensReport, tilt_lens::StatisticsText(camera.Tilt_Lens.lens, focus, counts, denoised).c_str());
 }
 
 }

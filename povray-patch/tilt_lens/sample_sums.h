@@ -61,8 +61,15 @@ struct SampleSums
 		}
 		earlier_counts[0] = count;
 		for(int i = 0; i < 3; i++)
-			earlier[0][i] = Seen(sum[i] / count);
+			earlier[0][i] = sum[i] / count;
 	}
+
+	/// The first part of the samples: as many as the last power of two below all of them.
+	/// 0 for a single sample.
+	int FirstPart() const { return earlier_counts[First()]; }
+	/// Mean of that part in a channel of red, green, blue.
+	double FirstMean(int channel) const { return earlier[First()][channel]; }
+	int First() const { return earlier_counts[0] < count ? 0 : 1; }
 
 	Colour Mean() const
 	{
@@ -78,7 +85,7 @@ struct SampleSums
 		c.pixels = 1.0;
 		for(c.changes = 0; (c.changes < ChangesKept) && (earlier_counts[c.changes + 1] > 0); c.changes++)
 			for(int i = 0; i < 3; i++)
-				c.change[c.changes] += Square(earlier[c.changes][i] - earlier[c.changes + 1][i]) / 3.0;
+				c.change[c.changes] += Square(Seen(earlier[c.changes][i]) - Seen(earlier[c.changes + 1][i])) / 3.0;
 		return c;
 	}
 

@@ -127,7 +127,7 @@ double Percent(uint64_t part, uint64_t all)
 
 }
 
-std::string StatisticsText(const TiltLens& lens, const FocusCounts& focus, const RenderCounts& counts)
+std::string StatisticsText(const TiltLens& lens, const FocusCounts& focus, const RenderCounts& counts, double denoised_rms)
 {
 	std::string text = "Tilt lens\n";
 	const double focal_length = 1.0 / lens.power;
@@ -145,10 +145,13 @@ std::string StatisticsText(const TiltLens& lens, const FocusCounts& focus, const
 	Append(text, "Effects:         %s\n", lens.distorts ? "distortion" : "none");
 	if(counts.pixels > 0)
 	{
-		const double rms = counts.RmsError();
+		const double sampled = counts.RmsError();
+		const double rms = denoised_rms < 0.0 ? sampled : denoised_rms;
 		Append(text, "Samples/Pixel:   min %u  mean %.2f  max %u   Camera Rays: %.0f\n", counts.min_samples,
 		       double(counts.samples) / double(counts.pixels), counts.max_samples, double(counts.samples));
 		Append(text, "Estimated Error: %.5f RMS of the picture (linear), %.2f of 255 levels\n", rms, 255.0 * rms);
+		if(denoised_rms >= 0.0)
+			Append(text, "  before denoise: %.5f\n", sampled);
 	}
 	return text;
 }

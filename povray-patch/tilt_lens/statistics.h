@@ -61,8 +61,9 @@ FocusCounts CountFocus(const TiltLens& lens, const CameraVectors& camera,
                        int width, int height, int left, int top, int right, int bottom);
 
 /// The block of text for the render statistics, in POV-Ray's format, without the
-/// rules above and below it. Distances in scene units.
-std::string StatisticsText(const TiltLens& lens, const FocusCounts& focus, const RenderCounts& counts);
+/// rules above and below it. Distances in scene units. `denoised_rms`: the estimated
+/// error of the denoised picture, below 0 where it was not denoised.
+std::string StatisticsText(const TiltLens& lens, const FocusCounts& focus, const RenderCounts& counts, double denoised_rms = -1.0);
 
 }
 

@@ -70,6 +70,9 @@ void TracePixel::TraceTiltLensTile(int left, int top, int right, int bottom, int
 		return;
 	}
 
+	if(lens.Denoises() && GiveDenoisedTile(left, top, right, bottom, colours))
+		return;
+
 	for(int y = top; y <= bottom; y++)
 		for(int x = left; x <= right; x++)
 			tile.push_back(TilePixel(x, y, lens.Seed()));
@@ -84,6 +87,32 @@ void TracePixel::TraceTiltLensTile(int left, int top, int right, int bottom, int
 		colours.push_back(pixel->sums.Mean());
 		threadData->tiltLensCounts.AddPixel(pixel->sums.count, pixel->sums.Changes());
 	}
+	threadData->Stats()[Number_Of_Pixels] += tile.size();
+
+	if(lens.Denoises())
+	{
+		boost::mutex::scoped_lock lock(lens.denoised->mutex);
+		for(vector<TilePixel>::iterator pixel = tile.begin(); pixel != tile.end(); pixel++)
+			lens.denoised->Record(pixel->x, pixel->y, pixel->sums);
+	}
+}
+
+/// The second pass over a picture that is denoised. False in the first.
+bool TracePixel::GiveDenoisedTile(int left, int top, int right, int bottom, vector<Colour>& colours)
+{
+	tilt_lens::DenoisedPicture& picture = *camera.Tilt_Lens.denoised;
+	boost::mutex::scoped_lock lock(picture.mutex);
+	float c[tilt_lens::PictureChannels];
+
+	if(!picture.IsComplete())
+		return false;
+	for(int y = top; y <= bottom; y++)
+		for(int x = left; x <= right; x++)
+		{
+			picture.Denoised(x, y, c);
+			colours.push_back(Colour(c[0], c[1], c[2], c[3], c[4]));
+		}
+	return true;
 }
 
 /// Samples the pixels of a tile as far as they need it by themselves, and the

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// `denoise`: pixels of a blurred picture know something about each other. Free of
+// POV-Ray.
+//
+// Every pixel keeps two means, of the first and of the later part of its samples.
+// A smoothing kernel that leaves the pixel itself out is tried on both parts: the
+// product of (smoothed first - later) and (smoothed later - first) is on average the
+// square of what smoothing would falsify, free of noise because the parts' noise is
+// not common. With the pixel's own variance that gives the weight at which own mean
+// and smoothed neighbours together have the least squared error, and that error. Of
+// fourteen kernels, round ones and strokes in four directions, each pixel takes the
+// one that promises most; where none promises anything it stays as it was.
+//
+// Sources: C. Stein, "Estimation of the mean of a multivariate normal distribution"
+// (1981) for the weight; Rousselle, Knaus, Zwicker, "Adaptive sampling and
+// reconstruction using greedy error minimization" (2011) and "Adaptive rendering with
+// non-local means filtering" (2012) for choosing kernels by two buffers.
+
+#ifndef TILT_LENS_DENOISE_H
+#define TILT_LENS_DENOISE_H
+
+#include <cstddef>
+#include <vector>
+
+namespace tilt_lens
+{
+
+const int PictureChannels = 5;      ///< red, green, blue, filter, transmit
+
+/// A sampled picture of width x height pixels, planes row by row, linear light.
+struct NoisyPicture
+{
+	int width = 0, height = 0;
+	std::vector<float> mean[PictureChannels];   ///< of all samples
+	std::vector<float> first[3];                ///< of the first part of them
+	std::vector<float> share;                   ///< of that part in all samples, 0 < share < 1; 1 where there is but one
+
+	void Resize(int w, int h);
+};
+
+/// Denoises rows top..bottom (inclusive) into the same rows of `denoised`, planes of
+/// the picture's size. Rows beyond are looked at where the picture has them. Returns
+/// the sum over those pixels of the estimated squared error (mean of red, green,
+/// blue). The result for a row does not depend on top and bottom.
+double DenoiseRows(const NoisyPicture& picture, int top, int bottom, std::vector<float> (&denoised)[PictureChannels]);
+
+}
+
+#endif

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include <algorithm>
+#include <cmath>
+
+// frame.h must always be the first POV file included (pulls in platform config)
+#include "backend/frame.h"
+#include "backend/colour/colour.h"
+#include "backend/tilt_lens/denoised_picture.h"
+#include "backend/tilt_lens/sample_sums.h"
+
+// this must be the last file included
+#include "base/povdebug.h"
+
+namespace tilt_lens
+{
+
+// Rows that are denoised at a time: enough that their margins hardly count.
+static const int BandHeight = 128;
+
+void DenoisedPicture::Cover(int l, int t, int r, int b)
+{
+	const int width = r - l + 1, height = b - t + 1;
+
+	left = l;
+	top = t;
+	noisy.Resize(width, height);
+	missing = size_t(width) * height;
+	recorded.assign(missing, false);
+	bandDone.assign((height + BandHeight - 1) / BandHeight, false);
+	for(int c = 0; c < PictureChannels; c++)
+		denoised[c].assign(missing, 0.0f);
+	squaredError = 0.0;
+}
+
+void DenoisedPicture::Record(int x, int y, const SampleSums& sums)
+{
+	const size_t i = size_t(y - top) * noisy.width + (x - left);
+	const int part = sums.FirstPart();
+
+	for(int c = 0; c < PictureChannels; c++)
+		noisy.mean[c][i] = float(sums.sum[c] / sums.count);
+	for(int c = 0; (part > 0) && (c < 3); c++)
+		noisy.first[c][i] = float(sums.FirstMean(c));
+	noisy.share[i] = part > 0 ? float(part) / float(sums.count) : 1.0f;
+	if(!recorded[i])
+		missing--;
+	recorded[i] = true;
+}
+
+void DenoisedPicture::Denoised(int x, int y, float *channels)
+{
+	const int row = y - top, band = row / BandHeight;
+
+	if(!bandDone[band])
+	{
+		squaredError += DenoiseRows(noisy, band * BandHeight, std::min((band + 1) * BandHeight, noisy.height) - 1, denoised);
+		bandDone[band] = true;
+	}
+	for(int c = 0; c < PictureChannels; c++)
+		channels[c] = denoised[c][size_t(row) * noisy.width + (x - left)];
+}
+
+double DenoisedPicture::RmsError() const
+{
+	return recorded.empty() ? 0.0 : std::sqrt(squaredError / double(recorded.size()));
+}
+
+}

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// The picture that `denoise` needs whole, gathered from the threads' tiles in a first
+// pass and given out denoised in a second.
+
+#ifndef TILT_LENS_DENOISED_PICTURE_H
+#define TILT_LENS_DENOISED_PICTURE_H
+
+#include <cstddef>
+#include <vector>
+
+#include <boost/thread/mutex.hpp>
+
+#include "backend/tilt_lens/denoise.h"
+
+namespace tilt_lens
+{
+
+struct SampleSums;
+
+class DenoisedPicture
+{
+	public:
+		DenoisedPicture() : left(0), top(0), missing(0), squaredError(0.0) {}
+
+		/// Begins a picture: the part that is rendered, inclusive.
+		void Cover(int left, int top, int right, int bottom);
+
+		/// All pixels are there: the second pass.
+		bool IsComplete() const { return missing == 0; }
+
+		void Record(int x, int y, const SampleSums& sums);
+
+		/// A pixel denoised, as PictureChannels numbers. Only when complete.
+		void Denoised(int x, int y, float *channels);
+
+		/// Estimated RMS error of what Denoised gave, 0 before.
+		double RmsError() const;
+
+		/// Held while any of the above is called.
+		boost::mutex mutex;
+	private:
+		int left, top;
+		size_t missing;
+		NoisyPicture noisy;
+		std::vector<bool> recorded;         // pixels
+		std::vector<bool> bandDone;
+		std::vector<float> denoised[PictureChannels];
+		double squaredError;
+};
+
+}
+
+#endif

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// Smoothing kernels on planes of numbers, for denoise.cpp. Free of POV-Ray.
+
+#ifndef TILT_LENS_KERNELS_H
+#define TILT_LENS_KERNELS_H
+
+#include <cstddef>
+#include <vector>
+
+namespace tilt_lens
+{
+
+/// Numbers of a rectangle of pixels, row by row.
+struct Plane
+{
+	int width, height;
+	std::vector<float> v;
+
+	explicit Plane(int w = 0, int h = 0) : width(w), height(h), v(size_t(w) * h, 0.0f) {}
+	float& At(int x, int y) { return v[size_t(y) * width + x]; }
+};
+
+/// Index within 0 .. n - 1 that i has when the row is continued by reflection about
+/// its first and last element; any i, n >= 1.
+int Reflected(int i, int n);
+
+/// Kernels reach no farther than this, in pixels.
+const int KernelReach = 10;
+
+/// A kernel of sum 1 whose centre weighs nothing. Beyond its borders a plane counts as 0:
+/// results are right KernelReach pixels inside.
+class Kernel
+{
+	public:
+		/// Gaussian along `angle` (radians) and across; equal widths make it round.
+		Kernel(double sigma_along, double sigma_across, double angle);
+
+		Plane Apply(const Plane& p) const { return Apply(p, false); }
+		/// With squared weights: variance of what Apply returns, from the variances of pixels.
+		Plane ApplySquared(const Plane& p) const { return Apply(p, true); }
+	private:
+		struct Tap { int dx, dy; float weight; };
+		std::vector<float> half;        // a round one in two passes: weights at 0, 1, 2, ...
+		std::vector<Tap> taps;          // a stroke
+
+		Plane Apply(const Plane& p, bool squared) const;
+};
+
+/// Round kernels from half a pixel to four, and strokes in four directions.
+std::vector<Kernel> AllKernels();
+
+/// Gaussian average, sigma 2 pixels.
+Plane Smoothed(const Plane& p);
+
+}
+
+#endif
