@@ -14,6 +14,7 @@
 #include <chrono>
 #include <cstdio>
 #include <fstream>
+#include <map>
 #include <mutex>
 #include <thread>
 
@@ -118,10 +119,22 @@ try
 	report.programs = programs;
 
 	const auto start = std::chrono::steady_clock::now();
-	std::vector<Contest> contests(entries.size());
+	std::map<std::size_t, Contest> finished; // by the order of the list, not of the finish
 	std::vector<std::string> failures;
 	std::atomic<std::size_t> next{0}, done{0};
 	std::mutex mutex;
+	// After every contest, so that a race that is stopped leaves what it has.
+	const auto write = [&] {
+		const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+		report.contests.clear();
+		for (const auto& entry : finished)
+			report.contests.push_back(entry.second);
+		report.conditions = fmt::format("{:%Y-%m-%d}, {}, {} mode, {} of {} contests, {} x {} pixels, {} at a time, {:.0f} minutes.",
+			fmt::localtime(std::time(nullptr)), Processor(), mode, finished.size(), entries.size(), report.settings.width,
+			report.settings.height, jobs, seconds.count() / 60);
+		WriteTables(report, out);
+		WritePage(report, out, work);
+	};
 	const auto worker = [&] {
 		for (std::size_t i; (i = next++) < entries.size();)
 		{
@@ -134,10 +147,11 @@ try
 			};
 			try
 			{
-				// A folder of its own for the tilted contest too: both may run at once.
-				RaceScene scene = entry.scene;
-				const Renderer renderer(programs, scene, work, entry.Name(), report.settings.width, report.settings.height);
-				contests[i] = RunContest(renderer, scene, entry.tilted, report.settings, reuse_stock, say);
+				const Renderer renderer(programs, entry.scene, work, entry.Name(), report.settings.width, report.settings.height);
+				Contest contest = RunContest(renderer, entry.scene, entry.tilted, report.settings, reuse_stock, say);
+				const std::lock_guard<std::mutex> lock(mutex);
+				finished[i] = std::move(contest);
+				write();
 			}
 			catch (const std::exception& error)
 			{
@@ -158,13 +172,6 @@ try
 	if (!failures.empty())
 		return 1;
 
-	report.contests = contests;
-	const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-	report.conditions = fmt::format("{:%Y-%m-%d}, {}, {} mode, {} x {} pixels, {} scene{} at a time, {:.0f} minutes.",
-		fmt::localtime(std::time(nullptr)), Processor(), mode, report.settings.width, report.settings.height, jobs, jobs == 1 ? "" : "s",
-		seconds.count() / 60);
-	WriteTables(report, out);
-	WritePage(report, out, work);
 	std::printf("time over ours at equal RMS error, geometric means: stock %.2f, averaged pinholes %.2f, fixed N %.2f\n%s\n%s\n",
 		GeometricMean(report, Opponent::STOCK), GeometricMean(report, Opponent::PINHOLES), GeometricMean(report, Opponent::FIXED),
 		WhereWeLose(report).c_str(), (out / "report.html").string().c_str());

@@ -177,6 +177,7 @@ void AddPinholes(Contest& contest, const Renderer& renderer, const RaceSettings&
 			point.times.push_back(std::max(cost.cpu - start_up, 1e-3) * frames[i++] / settings.pinhole_frames);
 			point.rss = cost.rss;
 		}
+		contest.pinholes_paid = cost.cpu / std::max(cost.cpu - start_up, 1e-3);
 		contest.start_up[Opponent::PINHOLES] = start_up / settings.pinhole_frames;
 	}
 	contest.points[Opponent::PINHOLES] = points;

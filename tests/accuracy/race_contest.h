@@ -18,6 +18,7 @@ struct Contest
 	int truth_samples = 0;
 	double pinhole_distance = 0, pinhole_error = 0; // truth to averaged pinholes of stock; what their halves differ by, / 2
 	int pinhole_frames = 0;
+	double pinholes_paid = 1; // CPU time of the pinholes with parsing and start-up, over that without
 	Offset stock_offset; // of stock's own limit
 	double limit_distance = 0, limit_error = 0; // stock's limit to the truth; its own error
 	std::map<Opponent, double> start_up;

@@ -39,7 +39,7 @@ std::string PlotOf(const Contest& contest, bool rel_mse, const fs::path& work)
 	std::string id = name; // gnuplot allows no hyphen here
 	std::replace(id.begin(), id.end(), '-', '_');
 	std::ofstream file(script);
-	file << "set terminal svg size 560,400 dynamic font 'sans-serif,12' name '" << id << "'\nset output '" << svg.string() << "'\n"
+	file << "set terminal svg size 560,400 dynamic noenhanced font 'sans-serif,12' name '" << id << "'\nset output '" << svg.string() << "'\n"
 		"set logscale xy\nset grid lc rgb '#dddddd'\nset key top right samplen 2\nset border 3 lc rgb '#666666'\nset tics nomirror\n"
 		"set format x '%g'\nset format y '%g'\nset xlabel 'CPU time less start-up, s'\nset ylabel '"
 		<< (rel_mse ? "root of relMSE" : "RMS error, linear light") << "'\n";

@@ -222,14 +222,3 @@ Cost Renderer::Pinholes(int frames, bool tilted, double& start_up, const std::fu
 	}
 	return cost;
 }
-
-Rendered Renderer::Sharp(bool ours, const std::vector<std::string>& more) const
-{
-	std::vector<std::string> command = Command(ours ? programs.ours : programs.stock, {}, width, height);
-	const auto camera = std::find_if(command.begin(), command.end(),
-		[](const std::string& word) { return word.compare(0, 20, "Declare=Race_Camera=") == 0; });
-	*camera = "Declare=Race_Camera=3";
-	command.insert(command.end(), more.begin(), more.end());
-	const Cost cost = RunMeasured(command, work, work / "povray.log");
-	return {ReadPpm((work / "picture.ppm").string()), cost};
-}

@@ -44,11 +44,6 @@ public:
 	// Returns the cost of all; `start_up` receives what as many frames of one pixel cost.
 	Cost Pinholes(int frames, bool tilted, double& start_up, const std::function<void(int, const Picture&)>& each) const;
 
-	// One ray through the middle of the lens: a picture without blur.
-	Rendered Sharp(bool ours, const std::vector<std::string>& more) const;
-
-	std::filesystem::path Folder() const { return work; }
-
 private:
 	// Pixels added on every side: the only way to other random numbers in stock, which derives them from the pixel's
 	// coordinates.

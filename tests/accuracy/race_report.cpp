@@ -99,6 +99,12 @@ std::string Summary(const RaceReport& report, Opponent rival, const char* title)
 	return text + fmt::format("<th class=\"big\">{:.2f}</th></tr></table>\n<p>Least: {:.2f}.</p>\n", GeometricMean(report, rival), least);
 }
 
+Ratio Paid(const Contest& contest, Ratio ratio)
+{
+	ratio.value *= contest.pinholes_paid;
+	return ratio;
+}
+
 std::string Ratios(const Contest& contest, const RaceSettings& settings)
 {
 	std::string text = "<table><tr><th>time, over ours</th>";
@@ -115,6 +121,15 @@ std::string Ratios(const Contest& contest, const RaceSettings& settings)
 			text += Cell(RatioAt(contest, opponent, error));
 		for (double error : settings.rel_mse)
 			text += Cell(RelMseRatioAt(contest, opponent, error));
+		text += "</tr>\n";
+		if (opponent != Opponent::PINHOLES)
+			continue;
+		// As a user pays: every frame is parsed.
+		text += "<tr><td>the same, parsing not taken off</td>";
+		for (double error : settings.errors)
+			text += Cell(Paid(contest, RatioAt(contest, opponent, error)));
+		for (double error : settings.rel_mse)
+			text += Cell(Paid(contest, RelMseRatioAt(contest, opponent, error)));
 		text += "</tr>\n";
 	}
 	return text + "</table>\n";
