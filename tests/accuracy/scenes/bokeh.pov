@@ -31,11 +31,11 @@ box { <-60, -3, 5>, <60, -2, 90> pigment { rgb <0.05, 0.05, 0.06> } finish { amb
 	box { <X, -2, 40>, <X + 4.4, 6 + 9 * rand(R), 44> pigment { rgb <0.06, 0.05, 0.07> } finish { ambient 1 diffuse 0.2 } }
 #end
 #for (I, 0, 44)
-	#local B = 5 + 25 * pow(rand(R), 2);
+	#local B = 3 + 9 * pow(rand(R), 2);
 	#local C = <1, 0.55 + 0.35 * rand(R), 0.15 + 0.5 * rand(R)>;
-	sphere { <-14 + 28 * rand(R), -1 + 9 * rand(R), 14 + 24 * rand(R)>, 0.1 + 0.1 * rand(R) no_shadow pigment { rgb C } finish { ambient B diffuse 0 } }
+	sphere { <-14 + 28 * rand(R), -1 + 9 * rand(R), 14 + 24 * rand(R)>, 0.16 + 0.14 * rand(R) no_shadow pigment { rgb C } finish { ambient B diffuse 0 } }
 #end
 #for (I, 0, 7)
 	#local P = <-9 + 2.6 * I, -1.4, 16 + 9 * rand(R)>;
-	sphere { P, 0.13 no_shadow pigment { rgb <1, 0.1, 0.05> } finish { ambient 12 diffuse 0 } }
+	sphere { P, 0.2 no_shadow pigment { rgb <1, 0.1, 0.05> } finish { ambient 5 diffuse 0 } }
 #end
