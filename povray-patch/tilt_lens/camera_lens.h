@@ -11,13 +11,14 @@
 #include <boost/shared_ptr.hpp>
 
 #include "backend/tilt_lens/adaptive.h"
-#include "backend/tilt_lens/denoised_picture.h"
 #include "backend/tilt_lens/lens_spec.h"
 #include "backend/tilt_lens/pilot.h"
-#include "backend/tilt_lens/tile_borders.h"
 
 namespace tilt_lens
 {
+
+class DenoisedPicture;
+class TileBorders;
 
 struct CameraLens
 {

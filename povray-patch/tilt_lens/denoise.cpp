@@ -29,9 +29,13 @@ namespace
 const float NetGain = 0.683f;           // 1 / (2^1.3 - 1)
 // and the parts' errors are this much opposed, in units of the mean's variance.
 const float Opposition = 0.462f;        // 2^1.3 - 2
+// The least of fourteen estimates is below the truth: by 8 % of the error on average over
+// five scenes at 8 to 64 samples (tests/accuracy, estimate).
+const double Optimism = 1.08 * 1.08;
 // Kernels reach KernelReach pixels, and what they promise is averaged over a few more.
 const int SmoothingReach = 6;
 const int Margin = KernelReach + SmoothingReach;
+static_assert(Margin == DenoiseReach, "the header promises how far pixels look");
 
 /// Two parts of a band of the picture, with margins, and what is best so far.
 struct Band
@@ -136,7 +140,7 @@ double DenoiseRows(const NoisyPicture& picture, int top, int bottom, std::vector
 			const size_t from = size_t(y - top + Margin) * band.cost.width + x + Margin;
 			for(int c = 0; c < PictureChannels; c++)
 				denoised[c][size_t(y) * picture.width + x] = band.best[c].v[from];
-			error += band.cost.v[from];
+			error += band.cost.v[from] * Optimism;
 		}
 	return error;
 }

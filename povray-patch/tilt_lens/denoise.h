@@ -28,6 +28,9 @@ namespace tilt_lens
 
 const int PictureChannels = 5;      ///< red, green, blue, filter, transmit
 
+/// A pixel depends on others at most this far away.
+const int DenoiseReach = 16;
+
 /// A sampled picture of width x height pixels, planes row by row, linear light.
 struct NoisyPicture
 {

@@ -18,24 +18,38 @@ namespace tilt_lens
 // Rows that are denoised at a time: enough that their margins hardly count.
 static const int BandHeight = 128;
 
-void DenoisedPicture::Cover(int l, int t, int r, int b)
+DenoisedPicture::DenoisedPicture() :
+	part(), extended(), missing(0), squaredError(0.0)
 {
-	const int width = r - l + 1, height = b - t + 1;
+}
 
-	left = l;
-	top = t;
-	noisy.Resize(width, height);
-	missing = size_t(width) * height;
+void DenoisedPicture::Begin(int width, int height, int left, int top, int right, int bottom)
+{
+	const Rectangle p = { left, top, right, bottom };
+	const Rectangle e = { std::max(0, left - DenoiseReach), std::max(0, top - DenoiseReach),
+	                      std::min(width - 1, right + DenoiseReach), std::min(height - 1, bottom + DenoiseReach) };
+	part = p;
+	extended = e;
+	noisy.Resize(e.right - e.left + 1, e.bottom - e.top + 1);
+	missing = size_t(noisy.width) * noisy.height;
 	recorded.assign(missing, false);
-	bandDone.assign((height + BandHeight - 1) / BandHeight, false);
+	bandDone.assign((noisy.height + BandHeight - 1) / BandHeight, false);
 	for(int c = 0; c < PictureChannels; c++)
 		denoised[c].assign(missing, 0.0f);
 	squaredError = 0.0;
 }
 
+void DenoisedPicture::Extend(int& left, int& top, int& right, int& bottom) const
+{
+	left = left == part.left ? extended.left : left;
+	top = top == part.top ? extended.top : top;
+	right = right == part.right ? extended.right : right;
+	bottom = bottom == part.bottom ? extended.bottom : bottom;
+}
+
 void DenoisedPicture::Record(int x, int y, const SampleSums& sums)
 {
-	const size_t i = size_t(y - top) * noisy.width + (x - left);
+	const size_t i = size_t(y - extended.top) * noisy.width + (x - extended.left);
 	const int part = sums.FirstPart();
 
 	for(int c = 0; c < PictureChannels; c++)
@@ -50,7 +64,7 @@ void DenoisedPicture::Record(int x, int y, const SampleSums& sums)
 
 void DenoisedPicture::Denoised(int x, int y, float *channels)
 {
-	const int row = y - top, band = row / BandHeight;
+	const int row = y - extended.top, band = row / BandHeight;
 
 	if(!bandDone[band])
 	{
@@ -58,7 +72,7 @@ void DenoisedPicture::Denoised(int x, int y, float *channels)
 		bandDone[band] = true;
 	}
 	for(int c = 0; c < PictureChannels; c++)
-		channels[c] = denoised[c][size_t(row) * noisy.width + (x - left)];
+		channels[c] = denoised[c][size_t(row) * noisy.width + (x - extended.left)];
 }
 
 double DenoisedPicture::RmsError() const

@@ -21,10 +21,15 @@ struct SampleSums;
 class DenoisedPicture
 {
 	public:
-		DenoisedPicture() : left(0), top(0), missing(0), squaredError(0.0) {}
+		DenoisedPicture();
 
-		/// Begins a picture: the part that is rendered, inclusive.
-		void Cover(int left, int top, int right, int bottom);
+		/// Begins a picture of width x height pixels, of which left..right, top..bottom
+		/// (inclusive) are rendered.
+		void Begin(int width, int height, int left, int top, int right, int bottom);
+
+		/// Extends a tile at the edge of the rendered part by the pixels beyond that the
+		/// denoised tile depends on, so that strips give the whole picture's pixels.
+		void Extend(int& left, int& top, int& right, int& bottom) const;
 
 		/// All pixels are there: the second pass.
 		bool IsComplete() const { return missing == 0; }
@@ -40,7 +45,8 @@ class DenoisedPicture
 		/// Held while any of the above is called.
 		boost::mutex mutex;
 	private:
-		int left, top;
+		struct Rectangle { int left, top, right, bottom; };
+		Rectangle part, extended;           // rendered; with what it depends on
 		size_t missing;
 		NoisyPicture noisy;
 		std::vector<bool> recorded;         // pixels

@@ -13,6 +13,8 @@
 #include "backend/math/vector.h"
 #include "backend/scene/camera.h"
 #include "backend/tilt_lens/camera_vectors.h"
+#include "backend/tilt_lens/denoised_picture.h"
+#include "backend/tilt_lens/tile_borders.h"
 
 // this must be the last file included
 #include "base/povdebug.h"

@@ -15,6 +15,7 @@
 #include "backend/scene/view.h"
 #include "backend/tilt_lens/statistics.h"
 #include "backend/tilt_lens/camera_vectors.h"
+#include "backend/tilt_lens/denoised_picture.h"
 
 // this must be the last file included
 #include "base/povdebug.h"

@@ -7,7 +7,9 @@
 #include "backend/colour/colour.h"
 #include "backend/math/vector.h"
 #include "backend/render/tracepixel.h"
+#include "backend/tilt_lens/denoised_picture.h"
 #include "backend/tilt_lens/sample_sums.h"
+#include "backend/tilt_lens/tile_borders.h"
 
 // this must be the last file included
 #include "base/povdebug.h"
@@ -73,21 +75,25 @@ void TracePixel::TraceTiltLensTile(int left, int top, int right, int bottom, int
 	if(lens.Denoises() && GiveDenoisedTile(left, top, right, bottom, colours))
 		return;
 
-	for(int y = top; y <= bottom; y++)
-		for(int x = left; x <= right; x++)
+	int l = left, t = top, r = right, b = bottom;
+	if(lens.Denoises())
+		lens.denoised->Extend(l, t, r, b);
+	for(int y = t; y <= b; y++)
+		for(int x = l; x <= r; x++)
 			tile.push_back(TilePixel(x, y, lens.Seed()));
 
 	if(lens.levels.size() > 1)
-		ConvergeTiltLensTile(tile, left, top, right, bottom, width, height);
+		ConvergeTiltLensTile(tile, l, t, r, b, width, height);
 
 	for(vector<TilePixel>::iterator pixel = tile.begin(); pixel != tile.end(); pixel++)
 	{
 		SampleTiltLensPixel(*pixel, lens.levels[pixel->level].samples, width, height);
 		cooperate();
-		colours.push_back(pixel->sums.Mean());
+		if((pixel->x >= left) && (pixel->x <= right) && (pixel->y >= top) && (pixel->y <= bottom))
+			colours.push_back(pixel->sums.Mean());
 		threadData->tiltLensCounts.AddPixel(pixel->sums.count, pixel->sums.Changes());
 	}
-	threadData->Stats()[Number_Of_Pixels] += tile.size();
+	threadData->Stats()[Number_Of_Pixels] += colours.size();
 
 	if(lens.Denoises())
 	{

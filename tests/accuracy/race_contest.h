@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// One scene, raced: at zero tilt against stock's focal blur, or tilted against averaged pinholes.
+#pragma once
+#include "race_curve.h"
+#include "race_errors.h"
+#include "race_render.h"
+
+#include <map>
+#include <string>
+
+struct Contest
+{
+	RaceScene scene;
+	bool tilted = false;
+	Picture truth;
+	double truth_error = 0; // RMS, of the truth itself
+	int truth_samples = 0;
+	double pinhole_distance = 0, pinhole_error = 0; // truth to averaged pinholes of stock; what their halves differ by, / 2
+	int pinhole_frames = 0;
+	double pinholes_paid = 1; // CPU time of the pinholes with parsing and start-up, over that without
+	Offset stock_offset; // of stock's own limit
+	double limit_distance = 0, limit_error = 0; // stock's limit to the truth; its own error
+	std::map<Opponent, double> start_up;
+	std::map<Opponent, std::vector<RacePoint>> points;
+
+	std::string Name() const { return scene.name + (tilted ? "-tilted" : ""); }
+	std::string Title() const { return scene.title + (scene.tilted ? tilted ? ", tilted" : ", not tilted" : ""); }
+	Opponent Rival() const { return tilted ? Opponent::PINHOLES : Opponent::STOCK; }
+	// OURS is the best of all settings, fixed ones too, as STOCK is.
+	std::vector<CurvePoint> RmsHull(Opponent opponent) const;
+	// Of the root, which falls like an RMS error.
+	std::vector<CurvePoint> RelMseHull(Opponent opponent) const;
+};
+
+// Time of the opponent over ours at an error. Over FIXED it is our adaptive settings alone that are asked.
+struct Ratio
+{
+	double error = 0, value = 0;
+	bool at_least = false; // the opponent did not get there: its time is extrapolated, to its advantage
+	bool at_most = false; // ours did not get there: extrapolated, to its disadvantage
+};
+Ratio RatioAt(const Contest& contest, Opponent opponent, double error);
+Ratio RelMseRatioAt(const Contest& contest, Opponent opponent, double rel_mse);
+
+// `say` receives a line at every step.
+Contest RunContest(const Renderer& renderer, const RaceScene& scene, bool tilted, const RaceSettings& settings,
+	bool reuse_stock, const std::function<void(const std::string&)>& say);

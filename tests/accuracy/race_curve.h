@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// Error against time, and what the best settings of an opponent reach.
+#pragma once
+#include "race_setting.h"
+
+#include <vector>
+
+struct RacePoint
+{
+	Setting setting;
+	std::vector<double> times; // CPU seconds without the start-up, one a repeat
+	double rms_truth = 0; // against the truth; stock also against two easier ones
+	double rms_shifted = 0, rms_limit = 0;
+	double rel_mse = 0; // the least over the same truths
+	double rss = 0;
+
+	double Time() const; // the least of the repeats: what disturbs a run makes it longer
+	double Spread() const; // longest over shortest, less 1
+	double Rms() const; // the least of the three
+};
+
+struct CurvePoint
+{
+	double time, error;
+};
+
+// The lower left of a cloud of points, convex in logarithms: what a user reaches who knows the best setting.
+std::vector<CurvePoint> Hull(std::vector<CurvePoint> points);
+
+struct TimeAt
+{
+	double time = 0;
+	bool reached = true; // false: extrapolated
+};
+
+// The time at which a hull reaches an error. Past its end it goes on with its last slope: `generous` not flatter than
+// that of plain averaging, -1/2, otherwise not steeper. Before its start: the time of its first point.
+TimeAt TimeToReach(const std::vector<CurvePoint>& hull, double error, bool generous);

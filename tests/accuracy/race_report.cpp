@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "race_report.h"
+
+#include <fmt/format.h>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+namespace fs = std::filesystem;
+
+namespace
+{
+
+const char* head = R"(<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width"><title>What accuracy costs</title>
+<style>
+body { font: 15px/1.45 sans-serif; color: #222; max-width: 1180px; margin: 2em auto; padding: 0 1em }
+table { border-collapse: collapse; margin: .6em 0 }
+th, td { padding: .15em .7em; border-bottom: 1px solid #ddd; text-align: right }
+th:first-child, td:first-child { text-align: left }
+.scene { display: flex; flex-wrap: wrap; gap: 1.2em; align-items: flex-start; border-top: 1px solid #bbb; padding: .8em 0 }
+.scene svg { max-width: 100%; height: auto }
+.text { flex: 1 1 320px } .text img { image-rendering: auto; width: 320px }
+.lost { background: #f8d0cc } .big { font-size: 1.25em } small { color: #555 }
+</style></head><body>
+)";
+
+std::string Base64(const std::vector<unsigned char>& bytes)
+{
+	static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+	std::string text;
+	for (std::size_t i = 0; i < bytes.size(); i += 3)
+	{
+		unsigned group = 0;
+		for (std::size_t k = 0; k < 3; ++k)
+			group = group << 8 | (i + k < bytes.size() ? bytes[i + k] : 0u);
+		for (std::size_t k = 0; k < 4; ++k)
+			text += i + k <= bytes.size() ? digits[group >> (18 - 6 * k) & 63] : '=';
+	}
+	return text;
+}
+
+// Display gamma, twice the size.
+std::string Thumbnail(const Picture& picture)
+{
+	cv::Mat image(picture.height, picture.width, CV_8UC3);
+	for (int i = 0; i < picture.width * picture.height; ++i)
+		for (int c = 0; c < 3; ++c)
+			image.data[3 * i + c] = cv::saturate_cast<unsigned char>(255 * std::pow(picture.rgb[std::size_t(3 * i + 2 - c)], 1 / 2.2));
+	cv::resize(image, image, {}, 2.5, 2.5, cv::INTER_CUBIC);
+	std::vector<unsigned char> bytes;
+	cv::imencode(".png", image, bytes);
+	return "<img alt=\"the truth\" src=\"data:image/png;base64," + Base64(bytes) + "\">";
+}
+
+std::string Cell(const Ratio& ratio)
+{
+	const char* sign = ratio.at_least && !ratio.at_most ? "&gt;&thinsp;" : ratio.at_most && !ratio.at_least ? "&lt;&thinsp;" : ratio.at_least ? "~" : "";
+	return fmt::format("<td{}>{}{:.2f}</td>", ratio.value < 1 ? " class=\"lost\"" : "", sign, ratio.value);
+}
+
+std::string Summary(const RaceReport& report, Opponent rival, const char* title)
+{
+	std::string rows;
+	double least = 1e9;
+	std::vector<double> log_sum(report.settings.errors.size() + 1, 0.0);
+	int count = 0;
+	for (const Contest& contest : report.contests)
+	{
+		if (contest.points.find(rival) == contest.points.end())
+			continue;
+		rows += fmt::format("<tr><td><a href=\"#{}\">{}</a></td>", contest.Name(), contest.Title());
+		double sum = 0;
+		for (std::size_t i = 0; i < report.settings.errors.size(); ++i)
+		{
+			const Ratio ratio = RatioAt(contest, rival, report.settings.errors[i]);
+			rows += Cell(ratio);
+			sum += std::log(ratio.value);
+			log_sum[i] += std::log(ratio.value);
+			least = std::min(least, ratio.value);
+		}
+		rows += fmt::format("<td><b>{:.2f}</b></td></tr>\n", std::exp(sum / double(report.settings.errors.size())));
+		++count;
+	}
+	if (count == 0)
+		return "";
+	std::string text = fmt::format("<h3>{}</h3>\n<table><tr><th>scene</th>", title);
+	for (double error : report.settings.errors)
+		text += fmt::format("<th>at {:g}</th>", error);
+	text += "<th>mean</th></tr>\n" + rows + "<tr><th>geometric mean</th>";
+	for (std::size_t i = 0; i < report.settings.errors.size(); ++i)
+		text += fmt::format("<th>{:.2f}</th>", std::exp(log_sum[i] / count));
+	return text + fmt::format("<th class=\"big\">{:.2f}</th></tr></table>\n<p>Least: {:.2f}.</p>\n", GeometricMean(report, rival), least);
+}
+
+Ratio Paid(const Contest& contest, Ratio ratio)
+{
+	ratio.value *= contest.pinholes_paid;
+	return ratio;
+}
+
+std::string Ratios(const Contest& contest, const RaceSettings& settings)
+{
+	std::string text = "<table><tr><th>time, over ours</th>";
+	for (double error : settings.errors)
+		text += fmt::format("<th>RMS {:g}</th>", error);
+	for (double error : settings.rel_mse)
+		text += fmt::format("<th>relMSE {:g}</th>", error);
+	text += "</tr>\n";
+	for (Opponent opponent : {contest.Rival(), Opponent::RAW, Opponent::FIXED})
+	{
+		text += opponent == Opponent::STOCK ? "<tr><td>stock's best setting</td>" :
+			opponent == Opponent::PINHOLES ? "<tr><td>averaged pinholes</td>" : opponent == Opponent::RAW ? "<tr><td>ours, no denoise</td>" : "<tr><td>ours, fixed N</td>";
+		for (double error : settings.errors)
+			text += Cell(RatioAt(contest, opponent, error));
+		for (double error : settings.rel_mse)
+			text += Cell(RelMseRatioAt(contest, opponent, error));
+		text += "</tr>\n";
+		if (opponent != Opponent::PINHOLES)
+			continue;
+		// As a user pays: every frame is parsed.
+		text += "<tr><td>the same, parsing not taken off</td>";
+		for (double error : settings.errors)
+			text += Cell(Paid(contest, RatioAt(contest, opponent, error)));
+		for (double error : settings.rel_mse)
+			text += Cell(Paid(contest, RelMseRatioAt(contest, opponent, error)));
+		text += "</tr>\n";
+	}
+	return text + "</table>\n";
+}
+
+// The settings that make the hull: what a user should write.
+std::string Hulls(const Contest& contest)
+{
+	std::string text = "<details><summary>settings on the curves</summary><table>"
+		"<tr><th>blur_samples</th><th>CPU s</th><th>spread</th><th>RMS</th><th>to truth</th><th>moved truth</th><th>own limit</th><th>relMSE</th></tr>\n";
+	for (Opponent opponent : {contest.Rival(), Opponent::OURS, Opponent::RAW, Opponent::FIXED})
+	{
+		const auto found = contest.points.find(opponent);
+		if (found == contest.points.end())
+			continue;
+		for (const CurvePoint& on : contest.RmsHull(opponent))
+			for (const RacePoint& point : found->second) // a fixed N on our best curve is listed with the fixed
+				if (point.Time() == on.time && point.Rms() == on.error)
+				{
+					text += fmt::format("<tr><td>{}: {}</td><td>{:.3f}</td><td>{:.1f}&thinsp;%</td><td>{:.5f}</td><td>{:.5f}</td>",
+						Name(opponent), Label(point.setting), point.Time(), 100 * point.Spread(), point.Rms(), point.rms_truth);
+					text += opponent == Opponent::STOCK ? fmt::format("<td>{:.5f}</td><td>{:.5f}</td>", point.rms_shifted, point.rms_limit) : "<td></td><td></td>";
+					text += fmt::format("<td>{:.3g}</td></tr>\n", point.rel_mse);
+				}
+	}
+	return text + "</table></details>\n";
+}
+
+std::string Section(const Contest& contest, const RaceReport& report, const fs::path& work)
+{
+	std::string text = fmt::format("<div class=\"scene\" id=\"{}\"><div class=\"text\"><h3>{}</h3>\n{}\n<p>{}.</p>\n", contest.Name(),
+		contest.Title(), Thumbnail(contest.truth), contest.scene.shows);
+	text += fmt::format("<p><small>Truth: {} samples, own RMS error {:.5f}{}; {:.5f} from {} averaged pinholes of stock, which should be within {:.5f}.",
+		contest.truth_samples, contest.truth_error, contest.truth_error <= report.settings.reference_error ? "" : " (more than a tenth of the smallest error)",
+		contest.pinhole_distance, contest.pinhole_frames, contest.pinhole_error);
+	if (!contest.tilted)
+		text += fmt::format(" Stock's own limit (own error {:.5f}) is {:.5f} from the truth, moved by ({:.3f}, {:.3f}) px.",
+			contest.limit_error, contest.limit_distance, contest.stock_offset.dx, contest.stock_offset.dy);
+	text += fmt::format(" Start-up taken off: {:.0f} ms ours", 1000 * contest.start_up.at(Opponent::OURS));
+	if (contest.tilted)
+		text += fmt::format(", {:.1f} ms a pinhole frame.", 1000 * contest.start_up.at(Opponent::PINHOLES));
+	else
+		text += fmt::format(", {:.0f} ms stock.", 1000 * contest.start_up.at(Opponent::STOCK));
+	text += "</small></p>\n" + Hulls(contest) + "</div>\n<div>" + PlotOf(contest, false, work) + Ratios(contest, report.settings);
+	return text + "<details><summary>relMSE</summary>" + PlotOf(contest, true, work) + "</details></div></div>\n";
+}
+
+double MedianSpread(const RaceReport& report)
+{
+	std::vector<double> spreads;
+	for (const Contest& contest : report.contests)
+		for (const auto& [opponent, list] : contest.points)
+			for (const RacePoint& point : list)
+				spreads.push_back(point.Spread());
+	std::sort(spreads.begin(), spreads.end());
+	return spreads.empty() ? 0 : spreads[spreads.size() / 2];
+}
+
+}
+
+void WritePage(const RaceReport& report, const fs::path& out, const fs::path& work)
+{
+	std::ofstream file(out / "report.html");
+	file << head << "<h1>What accuracy costs</h1>\n<p>" << report.conditions << "</p>\n";
+	file << "<h2>The race</h2>\n<p class=\"big\">Time over ours at equal error, geometric mean over scenes and errors: <b>"
+		<< fmt::format("{:.2f}", GeometricMean(report, Opponent::STOCK)) << "</b> for stock's best setting, <b>"
+		<< fmt::format("{:.2f}", GeometricMean(report, Opponent::PINHOLES)) << "</b> for averaged pinholes (tilted planes), <b>"
+		<< fmt::format("{:.2f}", GeometricMean(report, Opponent::FIXED)) << "</b> for our own fixed N, <b>" << fmt::format("{:.2f}", GeometricMean(report, Opponent::RAW)) << "</b> for our own without denoise.</p>\n<p>" << WhereWeLose(report) << "</p>\n";
+	file << Summary(report, Opponent::STOCK, "Stock focal blur, best of all its settings, zero tilt")
+		<< Summary(report, Opponent::PINHOLES, "Averaged pinhole renders from stock, tilted planes")
+		<< Summary(report, Opponent::RAW, "tilt_lens without denoise, adaptive and fixed, over tilt_lens with it")
+		<< Summary(report, Opponent::FIXED, "tilt_lens with a fixed number of samples, over all that adapts");
+	file << "<h3>How it is measured</h3>\n<ul>\n"
+		"<li>RMS error over pixels and channels, linear light, 16 bits, clipped at 1. relMSE is mean((x &minus; t)&sup2; / (t&sup2; + 0.01)).</li>\n"
+		"<li>Each stock picture is judged by the smallest of three errors: against the truth; against the truth moved by the part of a pixel that suits it best; "
+		"against stock's own limit, less the limit's own noise. Its sampling errors are thus not held against it.</li>\n"
+		"<li>CPU time, user and system, one thread, the least of " << report.settings.repeats << " runs, opponents by turns there and back"
+		<< fmt::format(" (median spread {:.1f}&thinsp;%)", 100 * MedianSpread(report)) << "; the time of a one-pixel run is taken off for all, "
+		"for pinholes as often as there are frames.</li>\n"
+		"<li>Curves are the lower left of all settings, convex in logarithms. &gt;: the opponent never got there, its last slope, or that of plain averaging "
+		"if steeper, is taken on; &lt;: the same for ours, with the flatter slope; ~: both.</li>\n"
+		"<li>Truths are the mean of independent sets of tilt_lens's fixed samples, and are checked against averaged pinholes of stock, which share no code with them.</li>\n"
+		<< (report.reused_stock ? "<li><b>Stock's times come from an earlier race</b>: not interleaved.</li>\n" : "") << "</ul>\n";
+	for (const Contest& contest : report.contests)
+		file << Section(contest, report, work);
+	for (const char* name : {"tiltcost.html", "cost-of-nothing.html", "calibrator-cost.html"})
+	{
+		std::ifstream fragment(out / name);
+		if (fragment)
+			file << "<hr>\n" << std::string{std::istreambuf_iterator<char>(fragment), {}} << '\n';
+	}
+	file << "</body></html>\n";
+	if (!file.flush())
+		throw std::runtime_error("cannot write " + (out / "report.html").string());
+}

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// What a race found, as a page and as tables.
+#pragma once
+#include "race_contest.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+struct RaceReport
+{
+	std::vector<Contest> contests;
+	RaceSettings settings;
+	Programs programs;
+	std::string conditions; // machine, day, mode
+	bool reused_stock = false;
+};
+
+// points.csv, ratios.csv and truths.csv.
+void WriteTables(const RaceReport& report, const std::filesystem::path& out);
+
+// report.html, self-contained; `work` receives what is made on the way. Fragments that lie in `out` are taken in:
+// calibrator-cost.html, tiltcost.html, cost-of-nothing.html.
+void WritePage(const RaceReport& report, const std::filesystem::path& out, const std::filesystem::path& work);
+
+// The SVG of a contest's curves: RMS error, or the root of relMSE.
+std::string PlotOf(const Contest& contest, bool rel_mse, const std::filesystem::path& work);
+
+// Geometric mean of ratios against a rival over contests and errors; 0 without any.
+double GeometricMean(const RaceReport& report, Opponent rival);
+
+// Sentences on where ours gains nothing, or least.
+std::string WhereWeLose(const RaceReport& report);

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "race_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <stdexcept>
+
+namespace fs = std::filesystem;
+
+static std::string Sign(const Ratio& ratio)
+{
+	return ratio.at_least && !ratio.at_most ? ">" : ratio.at_most && !ratio.at_least ? "<" : ratio.at_least ? "~" : "";
+}
+
+static std::ofstream Open(const fs::path& path, const char* head)
+{
+	std::ofstream file(path);
+	if (!file)
+		throw std::runtime_error("cannot write " + path.string());
+	file << head << '\n';
+	return file;
+}
+
+void WriteTables(const RaceReport& report, const fs::path& out)
+{
+	std::ofstream points = Open(out / "points.csv",
+		"contest,opponent,setting,cpu_s,spread,rms,rms_truth,rms_shifted,rms_limit,rel_mse,max_rss_mib");
+	std::ofstream ratios = Open(out / "ratios.csv", "contest,opponent,measure,error,ratio,sign");
+	std::ofstream truths = Open(out / "truths.csv",
+		"contest,samples,own_error,pinholes,pinhole_distance,pinhole_error,stock_limit_distance,stock_limit_error,stock_dx,stock_dy");
+	for (const Contest& contest : report.contests)
+	{
+		for (const auto& [opponent, list] : contest.points)
+			for (const RacePoint& point : list)
+				points << fmt::format("{},{},\"{}\",{:.4f},{:.4f},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.1f}\n", contest.Name(),
+					Name(opponent), Label(point.setting), point.Time(), point.Spread(), point.Rms(), point.rms_truth,
+					point.rms_shifted, point.rms_limit, point.rel_mse, point.rss);
+		for (Opponent opponent : {contest.Rival(), Opponent::RAW, Opponent::FIXED})
+		{
+			for (double error : report.settings.errors)
+			{
+				const Ratio ratio = RatioAt(contest, opponent, error);
+				ratios << fmt::format("{},{},rms,{:g},{:.4f},{}\n", contest.Name(), Name(opponent), error, ratio.value, Sign(ratio));
+			}
+			for (double error : report.settings.rel_mse)
+			{
+				const Ratio ratio = RelMseRatioAt(contest, opponent, error);
+				ratios << fmt::format("{},{},relmse,{:g},{:.4f},{}\n", contest.Name(), Name(opponent), error, ratio.value, Sign(ratio));
+			}
+		}
+		truths << fmt::format("{},{},{:.3g},{},{:.3g},{:.3g},{:.3g},{:.3g},{:.4f},{:.4f}\n", contest.Name(), contest.truth_samples,
+			contest.truth_error, contest.pinhole_frames, contest.pinhole_distance, contest.pinhole_error, contest.limit_distance,
+			contest.limit_error, contest.stock_offset.dx, contest.stock_offset.dy);
+	}
+}
+
+double GeometricMean(const RaceReport& report, Opponent rival)
+{
+	double sum = 0;
+	int count = 0;
+	for (const Contest& contest : report.contests)
+	{
+		if (contest.points.find(rival) == contest.points.end())
+			continue;
+		for (double error : report.settings.errors)
+		{
+			sum += std::log(RatioAt(contest, rival, error).value);
+			++count;
+		}
+	}
+	return count > 0 ? std::exp(sum / count) : 0;
+}
+
+std::string WhereWeLose(const RaceReport& report)
+{
+	struct Cell
+	{
+		std::string where;
+		double value;
+	};
+	std::string text;
+	for (Opponent rival : {Opponent::STOCK, Opponent::PINHOLES, Opponent::FIXED})
+	{
+		std::vector<Cell> cells;
+		for (const Contest& contest : report.contests)
+			if (contest.points.find(rival) != contest.points.end())
+				for (double error : report.settings.errors)
+				{
+					const Ratio ratio = RatioAt(contest, rival, error);
+					cells.push_back({fmt::format("{} at {:g} ({}{:.2f})", contest.Title(), error, Sign(ratio), ratio.value), ratio.value});
+				}
+		if (cells.empty())
+			continue;
+		std::sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) { return a.value < b.value; });
+		const char* name = rival == Opponent::STOCK ? "Stock focal blur" : rival == Opponent::PINHOLES ? "Averaged pinholes" : "Our own fixed N";
+		std::string lost;
+		for (const Cell& cell : cells)
+			if (cell.value < 1)
+				lost += (lost.empty() ? "" : "; ") + cell.where;
+		if (!lost.empty())
+			text += fmt::format("{}: <b>we lose</b> in {}. ", name, lost);
+		else
+		{
+			text += fmt::format("{}: we lose nowhere; the least gain is {}", name, cells[0].where);
+			for (std::size_t i = 1; i < std::min<std::size_t>(3, cells.size()); ++i)
+				text += "; " + cells[i].where;
+			text += ". ";
+		}
+	}
+	return text;
+}
