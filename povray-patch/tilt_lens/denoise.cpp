@@ -29,7 +29,7 @@ namespace
 const float NetGain = 0.683f;           // 1 / (2^1.3 - 1)
 // and the parts' errors are this much opposed, in units of the mean's variance.
 const float Opposition = 0.462f;        // 2^1.3 - 2
-// The least of fourteen estimates is below the truth: by 8 % of the error on average over
+// The least of eighteen estimates is below the truth: by 8 % of the error on average over
 // five scenes at 8 to 64 samples (tests/accuracy, estimate).
 const double Optimism = 1.08 * 1.08;
 // Kernels reach KernelReach pixels, and what they promise is averaged over a few more.

@@ -9,7 +9,7 @@
 // square of what smoothing would falsify, free of noise because the parts' noise is
 // not common. With the pixel's own variance that gives the weight at which own mean
 // and smoothed neighbours together have the least squared error, and that error. Of
-// fourteen kernels, round ones and strokes in four directions, each pixel takes the
+// eighteen kernels, round ones and strokes in four directions, each pixel takes the
 // one that promises most; where none promises anything it stays as it was.
 //
 // Sources: C. Stein, "Estimation of the mean of a multivariate normal distribution"

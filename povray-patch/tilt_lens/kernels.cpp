@@ -112,9 +112,9 @@ std::vector<Kernel> AllKernels()
 	std::vector<Kernel> kernels;
 	for(double sigma : { 0.5, 0.8, 1.2, 1.8, 2.7, 4.0 })
 		kernels.push_back(Kernel(sigma, sigma, 0.0));
-	for(double along : { 1.2, 2.4 })
+	for(double along : { 1.0, 2.0, 4.0 })
 		for(int direction = 0; direction < 4; direction++)
-			kernels.push_back(Kernel(along, 0.45, direction * pi_4));
+			kernels.push_back(Kernel(along, 0.35, direction * pi_4));
 	return kernels;
 }
 

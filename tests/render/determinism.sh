@@ -43,6 +43,14 @@ plain)
 	threads_and_strips "$ours" "tilt and blur"
 	grep 'Samples/Pixel:   min 16 .* max 128 ' whole.ppm.log || fail "the number of samples does not adapt: nothing shown"
 	;;
+denoise)
+	scene "$(echo "$lens" | sed 's/tilt_lens *{/tilt_lens { denoise/')" "$blur" ""
+	threads_and_strips "$ours" "tilt, blur and denoise"
+	grep 'before denoise' whole.ppm.log || fail "not denoised: nothing shown"
+	# An interrupted one begins anew, and ends the same.
+	render "$ours" whole.ppm scene.pov $size +C
+	check "denoise, continued" "$compare" same whole.ppm threads.ppm
+	;;
 area_light)
 	scene "$lens" "$blur" "$area"
 	threads_and_strips "$ours" "tilt, blur and area light"

@@ -1,0 +1,33 @@
+#!/bin/sh
+# The error that the statistics estimate against the error that the picture has: within 25 %.
+#
+#   estimate.sh SCENE STOCK OURS COMPARE WORK
+#
+# SCENE: a name of scenes/. The truth has 4096 samples per pixel of another seed, so its own error is a tenth of the
+# smallest that is judged. 72 x 54 pixels: the mean of 4,000 squared errors is itself uncertain by a few percent.
+here_accuracy=$(cd "$(dirname "$0")" && pwd)
+. "$here_accuracy/../render/common.sh"
+here=$here_accuracy/scenes
+[ -f "$here/$case.pov" ] || { echo "no scene '$case' in $here"; exit 1; }
+
+# picture NAME OPTIONS...
+picture() {
+	name=$1
+	shift
+	render "$ours" "$name.ppm" "$here/$case.pov" +W72 +H54 Declare=Race_Camera=1 "$@"
+}
+
+picture truth Declare=Race_Max=4096 Declare=Race_Variance=0 Declare=Race_Seed=1
+for denoise in 0 1; do
+	for setting in "0 32 0" "0 128 0" "4 64 0.001" "8 256 0.0001"; do
+		set -- $setting
+		picture tested "Declare=Race_Min=$1" "Declare=Race_Max=$2" "Declare=Race_Variance=$3" "Declare=Race_Denoise=$denoise"
+		estimate=$(sed -n 's/Estimated Error: \([0-9.]*\).*/\1/p' tested.ppm.log)
+		true=$("$compare" rms 1 tested.ppm truth.ppm | sed -n 's/^[^0-9]*\([0-9.][0-9.e-]*\).*/\1/p' | head -1)
+		what="$case, blur_samples $1, $2 variance $3, denoise $denoise"
+		echo "$what $estimate $true" >> figures.txt
+		awk "BEGIN { r = $estimate / $true; printf \"$what: estimated $estimate, true $true, ratio %.2f\n\", r; exit !(r > 0.75 && r < 1.25) }" ||
+			fail "$what: the estimate is off by more than 25 %"
+	done
+done
+finish

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// denoise on pictures whose truth is known.
+
+#include <cmath>
+#include <functional>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "denoise.h"
+#include "kernels.h"
+
+using namespace tilt_lens;
+
+namespace
+{
+
+struct Result
+{
+	double before, after, estimate;     // RMS errors
+	std::vector<float> channels[PictureChannels];
+};
+
+/// The truth with normal noise of standard deviation `sigma` in every mean. The parts' noise is as opposed as that of
+/// nets whose variance falls like n^-1.3, which denoise assumes: var(half) = 2^1.3 var(all).
+NoisyPicture Noisy(int width, int height, double sigma, const std::function<double(int, int)>& truth)
+{
+	std::mt19937 random(7);
+	std::normal_distribution<double> normal;
+	NoisyPicture p;
+	p.Resize(width, height);
+	const double common = sigma, opposed = sigma * std::sqrt(std::exp2(1.3) - 1.0);
+	for(int y = 0; y < height; y++)
+		for(int x = 0; x < width; x++)
+		{
+			const int i = y * width + x;
+			p.share[i] = 0.5f;
+			for(int c = 0; c < 3; c++)
+			{
+				const double mean = truth(x, y) + common * normal(random);
+				p.mean[c][i] = float(mean);
+				p.first[c][i] = float(mean + opposed * normal(random));
+			}
+		}
+	return p;
+}
+
+double Rms(const std::vector<float> (&a)[PictureChannels], int width, const std::function<double(int, int)>& truth)
+{
+	double sum = 0.0;
+	for(int c = 0; c < 3; c++)
+		for(size_t i = 0; i < a[c].size(); i++)
+			sum += std::pow(a[c][i] - truth(int(i) % width, int(i) / width), 2);
+	return std::sqrt(sum / (3.0 * a[0].size()));
+}
+
+Result Denoise(const NoisyPicture& p, const std::function<double(int, int)>& truth, int band = 1000)
+{
+	Result r;
+	double squares = 0.0;
+	for(auto& c : r.channels)
+		c.assign(p.mean[0].size(), 0.0f);
+	for(int y = 0; y < p.height; y += band)
+		squares += DenoiseRows(p, y, std::min(y + band, p.height) - 1, r.channels);
+	r.before = Rms(p.mean, p.width, truth);
+	r.after = Rms(r.channels, p.width, truth);
+	r.estimate = std::sqrt(squares / double(p.mean[0].size()));
+	return r;
+}
+
+double Wave(int x, int y) { return 0.5 + 0.3 * std::sin(0.12 * x) * std::cos(0.09 * y); }
+double Edge(int x, int) { return x < 40 ? 0.2 : 0.8; }
+double Checks(int x, int y) { return (x + y) % 2 ? 0.1 : 0.9; }
+
+}
+
+TEST(Denoise, SmoothPicturesGainMuch)
+{
+	const Result r = Denoise(Noisy(90, 70, 0.05, Wave), Wave);
+	EXPECT_NEAR(r.before, 0.05, 0.002);
+	EXPECT_LT(r.after, 0.33 * r.before);          // a ninth of the rays
+	EXPECT_NEAR(r.estimate / r.after, 1.0, 0.35);       // of few degrees of freedom
+}
+
+TEST(Denoise, EdgesStay)
+{
+	const Result r = Denoise(Noisy(80, 80, 0.02, Edge), Edge);
+	EXPECT_LT(r.after, 0.5 * r.before);
+	EXPECT_NEAR(r.estimate / r.after, 1.0, 0.35);
+	// What leaks over the edge is less than the noise that went.
+	for(int x : { 38, 39, 40, 41 })
+	{
+		double sum = 0.0;
+		for(int y = 0; y < 80; y++)
+			sum += r.channels[1][y * 80 + x] / 80.0;
+		EXPECT_NEAR(sum, Edge(x, 0), 0.02) << "column " << x;
+	}
+}
+
+TEST(Denoise, DetailOfOnePixelIsNotSmoothedAway)
+{
+	const Result r = Denoise(Noisy(64, 64, 0.02, Checks), Checks);
+	EXPECT_LT(r.after, 1.02 * r.before);
+}
+
+TEST(Denoise, WithoutNoiseNothingChanges)
+{
+	const Result r = Denoise(Noisy(64, 64, 0.0, Wave), Wave);
+	EXPECT_LT(r.after, 1e-6);
+	const Result flat = Denoise(Noisy(20, 20, 0.0, [](int, int) { return 0.25; }), [](int, int) { return 0.25; });
+	EXPECT_LT(flat.after, 1e-7);
+}
+
+// Strips and tiles must not show: a row's pixels are the same bits whatever rows are asked for with it.
+TEST(Denoise, RowsDoNotDependOnTheBand)
+{
+	const NoisyPicture p = Noisy(50, 77, 0.05, Wave);
+	const Result whole = Denoise(p, Wave), rows = Denoise(p, Wave, 1), bands = Denoise(p, Wave, 30);
+	for(int c = 0; c < PictureChannels; c++)
+	{
+		EXPECT_EQ(whole.channels[c], rows.channels[c]);
+		EXPECT_EQ(whole.channels[c], bands.channels[c]);
+	}
+}
+
+TEST(Denoise, SmallAndSingleSamplePicturesAreLeftInOrder)
+{
+	for(int size : { 1, 2, 3 })
+		EXPECT_TRUE(std::isfinite(Denoise(Noisy(size, size, 0.05, Wave), Wave).after)) << size;
+	NoisyPicture p = Noisy(30, 30, 0.05, Wave);
+	p.share.assign(p.share.size(), 1.0f);               // one sample: nothing is known of its noise
+	const Result r = Denoise(p, Wave);
+	EXPECT_NEAR(r.after, r.before, 1e-6);
+}
+
+TEST(Kernels, WeighOneInSumAndNothingAtTheCentre)
+{
+	for(const Kernel& k : AllKernels())
+	{
+		Plane p(41, 41);
+		p.At(20, 20) = 1.0f;
+		const Plane response = k.Apply(p), squared = k.ApplySquared(p);
+		double sum = 0.0, squares = 0.0, squared_sum = 0.0;
+		for(size_t i = 0; i < response.v.size(); i++)
+		{
+			sum += response.v[i];
+			squares += double(response.v[i]) * response.v[i];
+			squared_sum += squared.v[i];
+		}
+		EXPECT_NEAR(sum, 1.0, 1e-5);
+		EXPECT_NEAR(response.v[20 * 41 + 20], 0.0, 1e-6);
+		EXPECT_NEAR(squared_sum, squares, 1e-5);
+	}
+}
+
+TEST(Kernels, RowsAreReflectedAboutTheirEnds)
+{
+	EXPECT_EQ(Reflected(-1, 5), 1);
+	EXPECT_EQ(Reflected(4, 5), 4);
+	EXPECT_EQ(Reflected(5, 5), 3);
+	EXPECT_EQ(Reflected(-9, 5), 1);
+	EXPECT_EQ(Reflected(-16, 1), 0);
+	EXPECT_EQ(Reflected(17, 2), 1);
+}
