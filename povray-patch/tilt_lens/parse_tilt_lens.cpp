@@ -74,9 +74,17 @@ void Parser::Parse_Tilt_Lens_Word(Camera& New)
 		{ "image_distance", &LensSpec::image_distance },
 		{ "focal_length", &LensSpec::focal_length },
 		{ "aperture_diameter", &LensSpec::aperture_diameter },
-		{ "f_stop", &LensSpec::f_stop },
-		{ "seed", &LensSpec::seed }
+		{ "f_stop", &LensSpec::f_stop }
 	};
+
+	// seed is one of POV-Ray's own words, a function.
+	if ((Token.Token_Id == FLOAT_FUNCT_TOKEN) && (Token.Function_Id == SEED_TOKEN))
+	{
+		if (spec.seed.given)
+			Error("tilt_lens: seed is given twice.");
+		spec.seed = Parse_Float();
+		return;
+	}
 
 	// A name that the scene has declared arrives as that value's token.
 	const bool is_name = (Token.Token_Id == IDENTIFIER_TOKEN) || (Token.Data != NULL);

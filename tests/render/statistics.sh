@@ -47,13 +47,13 @@ block)
 	sed -n 's/%//g; s/.*in front \([0-9.]*\)  at infinity \([0-9.]*\)  behind \([0-9.]*\)  empty \([0-9.]*\).*/\1 \2 \3 \4/p' \
 		tilted.exr.log floor.exr.log | awk '{ n++; sum = $1 + $2 + $3 + $4; if (sum < 99.97 || sum > 100.03) bad = 1 }
 		END { exit bad || n != 2 }' || fail "the shares do not add up to 100"
-	# The error that it estimates is the one that it has, or a little more: the spread of half the samples, which have lost
-	# some of the evenness of all. Measured 1.45 times.
-	scene truth 'tilt_lens { focal_plane_tilt 60 focal_distance 8 aperture_diameter 0.4 }' 'blur_samples 2048 variance 0'
+	# The error that it estimates is the one that it has, within 25 %: the bound that is promised (accuracy.estimate tests
+	# more scenes). Measured: 1.0 times.
+	scene truth 'tilt_lens { focal_plane_tilt 60 focal_distance 8 aperture_diameter 0.4 seed 1 }' 'blur_samples 4096 variance 0'
 	render "$ours" truth.exr truth.pov
 	estimate=$(sed -n 's/Estimated Error: \([0-9.]*\).*/\1/p' tilted.exr.log)
-	check "estimated $estimate, not too little" "$compare" rms "$(awk "BEGIN { print 1.1 * $estimate }")" tilted.exr truth.exr
-	check "estimated $estimate, at most twice too much" "$compare" differ "$(awk "BEGIN { print $estimate / 2 }")" tilted.exr truth.exr
+	check "estimated $estimate, not too little" "$compare" rms "$(awk "BEGIN { print 1.25 * $estimate }")" tilted.exr truth.exr
+	check "estimated $estimate, not too much" "$compare" differ "$(awk "BEGIN { print $estimate / 1.25 }")" tilted.exr truth.exr
 
 	scene plain perspective 'aperture 0.8 focal_point <0, 2.6, 4.5> blur_samples 7'
 	render "$ours" plain.exr plain.pov

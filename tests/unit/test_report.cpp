@@ -33,6 +33,16 @@ TiltLens Resolved(double tilt, double direction, double distance, double apertur
 	return lens;
 }
 
+/// Squared changes of a pixel whose variance halves with every doubling, the latest first.
+LevelChanges Halving(double latest)
+{
+	LevelChanges c;
+	c.pixels = 1.0;
+	for(int j = 0; j < ChangesKept; j++)
+		c.change[j] = std::ldexp(latest, j);
+	return c;
+}
+
 }
 
 // z = U + x tan(A): kappa = 0 at v.x = 1/tan(A). With A = atan(2) that is v.x = 0.5,
@@ -69,9 +79,10 @@ TEST(Statistics, PixelsBehindTheLensPlaneAreEmpty)
 
 TEST(Statistics, TextNamesTheFigures)
 {
+	// Changes of independent samples halve: exponent 1, and the variance is the latest change.
 	RenderCounts a, b;
-	a.AddPixel(16, 1e-6);
-	b.AddPixel(64, 3e-6);
+	a.AddPixel(16, Halving(1e-6));
+	b.AddPixel(64, Halving(3e-6));
 	a += b;
 	const TiltLens lens = Resolved(60.0, 90.0, 8.0, 0.5);
 	const std::string text = StatisticsText(lens, CountFocus(lens, Camera, 8, 6, 0, 0, 7, 5), a);

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// When a pixel has enough, and what error is left: against definitions, independent
+// samples, and power laws whose answer is known.
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "adaptive.h"
+#include "convergence.h"
+#include "pilot.h"
+
+using namespace tilt_lens;
+
+namespace
+{
+
+double Half(double df, double) { return 0.5 * df; }
+
+std::vector<int> Samples(const std::vector<SampleLevel>& levels)
+{
+	std::vector<int> n;
+	for(const SampleLevel& l : levels)
+		n.push_back(l.samples);
+	return n;
+}
+
+}
+
+TEST(Levels, ArePowersOfTwoFromMinToMax)
+{
+	EXPECT_EQ(Samples(SampleLevels(0, 100, 1e-4, 0.9, Half)), (std::vector<int>{ 16, 32, 64, 100 }));
+	EXPECT_EQ(Samples(SampleLevels(5, 64, 1e-4, 0.9, Half)), (std::vector<int>{ 8, 16, 32, 64 }));
+	EXPECT_EQ(Samples(SampleLevels(1, 8, 1e-4, 0.9, Half)), (std::vector<int>{ 4, 8 }));
+	EXPECT_EQ(Samples(SampleLevels(64, 64, 1e-4, 0.9, Half)), (std::vector<int>{ 64 }));
+	EXPECT_EQ(Samples(SampleLevels(4, 1000, 0.0, 0.9, Half)), (std::vector<int>{ 1000 })) << "variance 0: all samples everywhere";
+	EXPECT_EQ(Samples(SampleLevels(0, 3, 1e-4, 0.9, Half)), (std::vector<int>{ 3 }));
+	EXPECT_DOUBLE_EQ(SampleLevels(0, 100, 1e-4, 0.9, Half)[1].stop_below, 0.5e-4);
+	EXPECT_EQ(SampleLevels(0, 100, 1e-4, 0.9, Half).back().stop_below, 0.0) << "the last level always stops";
+	// The doubling must not run past what an int holds.
+	EXPECT_EQ(Samples(SampleLevels(0, 2147483647, 1e-4, 0.9, Half)).back(), 2147483647);
+}
+
+TEST(Uncertainty, IsTheVarianceWithinAnEighthOfAnOctave)
+{
+	EXPECT_EQ(ToUncertainty(0.0), 0);
+	EXPECT_EQ(FromUncertainty(0), 0.0);
+	for(double v = 1e-13; v < 6e4; v *= 1.37)
+	{
+		EXPECT_NEAR(std::log2(FromUncertainty(ToUncertainty(v)) / v), 0.0, 0.1251) << v;
+		EXPECT_NE(ToUncertainty(v), UnknownUncertainty);
+	}
+	EXPECT_NE(ToUncertainty(1e300), UnknownUncertainty);
+	EXPECT_GT(FromUncertainty(ToUncertainty(1e-300)), 0.0);
+}
+
+// One uncertain pixel among certain ones makes those within reach go on, and no others.
+TEST(Neighbourhood, ReachesTwoPixels)
+{
+	std::vector<Uncertainty> u(11 * 11, 0);
+	u[5 * 11 + 5] = ToUncertainty(1.0);
+	const UncertaintyMap map = { u.data(), 0, 0, 11 };
+	const auto at = [&](int x, int y) { return NeighbourhoodVariance(map, x, y, 0, 0, 10, 10); };
+	EXPECT_NEAR(at(5, 5), 0.5 * (1.0 / 9 + 1.0 / 25), 0.01);
+	EXPECT_NEAR(at(4, 6), at(5, 5), 1e-15);
+	EXPECT_NEAR(at(3, 5), 0.5 / 25, 0.002);
+	EXPECT_EQ(at(2, 5), 0.0);
+	// In a corner fewer vote.
+	u.assign(u.size(), ToUncertainty(1.0));
+	EXPECT_NEAR(at(0, 0), FromUncertainty(u[0]), 1e-12);
+}
+
+TEST(Neighbourhood, LevelIsTheFirstThatIsCertainEnoughAndNeverLess)
+{
+	const auto levels = SampleLevels(0, 256, 1e-4, 0.9, Half);   // 16 .. 256
+	EXPECT_EQ(NeighbourhoodLevel(levels, 0, 0.0, 1e-4), 0u);
+	EXPECT_EQ(NeighbourhoodLevel(levels, 2, 0.0, 1e-4), 2u);
+	EXPECT_EQ(NeighbourhoodLevel(levels, 0, 0.0031, 1e-4), 1u) << "31 samples' worth: 32";
+	EXPECT_EQ(NeighbourhoodLevel(levels, 0, 1.0, 1e-4), levels.size() - 1);
+	EXPECT_EQ(NeighbourhoodLevel(levels, 0, HUGE_VAL, 1e-4), levels.size() - 1);
+}
+
+// v(n) = c n^-a: the squared changes are c n^-a (2^a - 1) 2^(aj).
+TEST(Convergence, FindsThePowerLaw)
+{
+	for(double a : { 1.0, 1.3, 1.5, 1.75 })
+	{
+		double change[ChangesKept], exponent;
+		for(int j = 0; j < ChangesKept; j++)
+			change[j] = 3e-5 * (std::exp2(a) - 1.0) * std::exp2(a * j);
+		EXPECT_NEAR(VarianceFromChanges(change, ChangesKept, &exponent), 3e-5, 1e-15) << a;
+		EXPECT_NEAR(exponent, a, 1e-12);
+	}
+	EXPECT_EQ(VarianceFromChanges(nullptr, 0), 0.0);
+	const double none[ChangesKept] = {};
+	EXPECT_EQ(VarianceFromChanges(none, ChangesKept), 0.0) << "a picture without any change has no error";
+}
+
+// Independent samples, where s^2/n is the truth: 2,000 pixels of 64 uniform numbers.
+TEST(Convergence, AgreesWithIndependentSamples)
+{
+	std::mt19937 random(1);
+	std::uniform_real_distribution<double> uniform(0.0, 1.0);
+	LevelChanges sum;
+	for(int pixel = 0; pixel < 2000; pixel++)
+	{
+		LevelChanges c;
+		c.pixels = 1.0;
+		std::vector<double> means;
+		double total = 0.0;
+		for(int n = 1; n <= 64; n++)
+		{
+			total += uniform(random);
+			if((n & (n - 1)) == 0)
+				means.push_back(total / n);
+		}
+		for(int j = 0; j < ChangesKept; j++)
+			c.change[j] = std::pow(means[6 - j] - means[5 - j], 2);
+		sum += c;
+	}
+	// Var = 1/12/64; 2,000 squares of a normal variable leave 1/sqrt(1000) = 3 % (1 sigma).
+	EXPECT_NEAR(sum.SumOfVariances() / sum.pixels * 64 * 12, 1.0, 0.15);
+}
+
+TEST(Pilot, RequestIsReadOrIgnored)
+{
+	const PilotRequest r = ParsePilotRequest("64,256,/tmp/a,b.txt");
+	EXPECT_TRUE(bool(r));
+	EXPECT_EQ(r.blocks, 64);
+	EXPECT_EQ(r.samples, 256);
+	EXPECT_EQ(r.file, "/tmp/a,b.txt");
+	for(const char *bad : { "", "64", "64,256,", "64,100,f", "0,64,f", "-3,64,f", "64,1,f", "x,y,z" })
+		EXPECT_FALSE(bool(ParsePilotRequest(bad))) << bad;
+	EXPECT_FALSE(bool(ParsePilotRequest(nullptr)));
+}
+
+TEST(Pilot, BlocksAreSpreadOverThePicture)
+{
+	PilotRequest r;
+	r.blocks = 64;
+	r.samples = 64;
+	const auto chosen = PilotBlocks(r, 640, 480);       // 80 x 60 blocks
+	int count = 0, quadrant[4] = {};
+	for(int y = 0; y < 60; y++)
+		for(int x = 0; x < 80; x++)
+			if(chosen[y * 80 + x])
+			{
+				count++;
+				quadrant[(y >= 30) * 2 + (x >= 40)]++;
+			}
+	EXPECT_EQ(count, 64);
+	for(int q : quadrant)
+		EXPECT_NEAR(q, 16, 3);
+	r.blocks = 100000;
+	for(bool b : PilotBlocks(r, 100, 30))
+		EXPECT_TRUE(b);
+}
