@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <optional>
@@ -82,13 +83,13 @@ void Run(const Options& options)
 
 	Progress progress;
 	progress.Begin("settings");
-	const std::vector<Row> best = BestRows(pilot, report.pilot.machine, [&](double share)
+	report.best = BestRows(pilot, report.pilot.machine, [&](double share)
 	{
 		CheckInterrupt();
 		progress.Show(fmt::format("{:.0f} %", 100 * share));
 	});
 	progress.End();
-	report.rows = TableRows(best, 10);
+	report.rows = TableRows(report.best, 10);
 	for (const Setting& setting : options.own)
 		report.own.push_back(MakeRow(pilot, report.pilot.machine, setting));
 	const size_t stop = std::min(StopsPaying(report.rows, options.stop_levels), report.rows.size() - 1);
@@ -98,7 +99,7 @@ void Run(const Options& options)
 		tiltcal::WriteText(options.csv, CsvText(report));
 	if (!options.plot.empty())
 		WritePlot(report, options.plot);
-	const std::string answer = Answer(options, best);
+	const std::string answer = Answer(options, report.best);
 	fmt::print("{}", answer.empty() ? HeaderText(report) + "\n" + TableText(report) : answer);
 }
 

@@ -30,11 +30,16 @@ std::string TimeTics(double least, double greatest)
 	return tics;
 }
 
-std::string Points(const std::vector<Row>& rows)
+std::string Points(const std::vector<Row>& rows, double least_error)
 {
 	std::string text;
 	for (const Row& row : rows)
-		text += fmt::format("{:.6g} {:.6g} \"{}\"\n", row.predicted.error, row.wall, SceneText(row.setting));
+	{
+		const Setting& s = row.setting;
+		const std::string samples = s.min > 0 ? fmt::format("{}, {}", s.min, s.max) : fmt::format("{}", s.max);
+		if (row.predicted.error >= least_error)
+			text += fmt::format("{:.6g} {:.6g} \"{}; {:g}\"\n", row.predicted.error, row.wall, samples, s.variance);
+	}
 	return text + "e\n";
 }
 
@@ -73,7 +78,7 @@ void WritePlot(const Report& report, const std::string& file)
 	if (greatest_error == 0)
 		throw tiltcal::Refused(fmt::format("{}: not plotted, the picture has no error to plot", file));
 	// Room for the words to the right of the points.
-	least_error /= 3;
+	least_error /= 2.2;
 	greatest_error *= 1.3;
 	least /= 1.5;
 	greatest *= 1.5;
@@ -83,20 +88,22 @@ void WritePlot(const Report& report, const std::string& file)
 		tiltcal::BaseName(report.scene), report.pilot.log.width, report.pilot.log.height, report.pilot.machine.threads, report.pilot.machine.threads > 1 ? "s" : "")));
 	script += fmt::format("set logscale xy\nset xrange [{:g}:{:g}]\nset yrange [{:g}:{:g}]\n", greatest_error, least_error, least, greatest);
 	script += "set xlabel 'RMS error of the picture (linear, white = 1), finer to the right'\nset ylabel 'render time'\n"
-		"set x2label 'RMS error in levels of an 8-bit picture'\nset grid lc rgb '#dddddd'\nset key top left reverse Left\nset bmargin 4\n";
+		"set x2label 'RMS error in levels of an 8-bit picture'\nset grid xtics ytics lt 1 lc rgb '#dddddd'\nset key top left reverse Left\nset bmargin 4\n";
 	script += fmt::format("set xtics nomirror (0.1, 0.05, 0.03, 0.02, 0.01, 0.005, 0.003, 0.002, 0.001, 0.0005, 0.0003, 0.0002, 0.0001)\n"
 		"set ytics ({})\nset logscale x2\nset x2range [{:g}:{:g}]\nset x2tics ({})\n", TimeTics(least, greatest), greatest_error, least_error, LevelTics(report.rows));
-	script += "plot '-' using 1:2 with linespoints lw 2 pt 7 ps 0.8 lc rgb '#1f5fa8' title 'best settings', "
-		"'-' using 1:2:3 with labels left offset 1.2,-0.5 font ',9' tc rgb '#444444' notitle";
+	std::string plots = "plot '-' using 1:2 with lines lw 2 lc rgb '#9db9d9' title 'best settings'", data = Points(report.best, least_error);
+	const auto add = [&](const std::vector<Row>& rows, const char* style)
+	{
+		plots += std::string(", '-' using ") + style;
+		data += Points(rows, least_error);
+	};
+	add(report.rows, "1:2 with points pt 7 ps 0.9 lc rgb '#1f5fa8' title 'the table (blur_samples; variance)'");
+	add(report.rows, "1:2:3 with labels left offset 1,-0.6 font ',9' tc rgb '#444444' notitle");
 	if (stop < report.rows.size())
-		script += ", '-' using 1:2 with points pt 6 ps 2.4 lw 2 lc rgb '#d05a00' title 'here it stops paying'";
+		add({report.rows[stop]}, "1:2 with points pt 6 ps 2.4 lw 2 lc rgb '#d05a00' title 'here it stops paying'");
 	if (!report.own.empty())
-		script += ", '-' using 1:2 with points pt 2 ps 1.4 lw 2 lc rgb '#2a8a3a' title 'the settings asked for'";
-	script += "\n" + Points(report.rows) + Points(report.rows);
-	if (stop < report.rows.size())
-		script += Points({report.rows[stop]});
-	if (!report.own.empty())
-		script += Points(report.own);
+		add(report.own, "1:2 with points pt 2 ps 1.4 lw 2 lc rgb '#2a8a3a' title 'the settings asked for'");
+	script += plots + "\n" + data;
 	tiltcal::Plot(file, script, 860, 560);
 }
 

@@ -19,7 +19,8 @@ struct Report
 	std::string scene;
 	PilotRun pilot;             ///< its blocks may be gone by now
 	int blocks = 0, samples = 0;
-	std::vector<Row> rows;      ///< the coarsest first
+	std::vector<Row> best;      ///< as of BestRows
+	std::vector<Row> rows;      ///< of the table, the coarsest first
 	std::vector<Row> own;       ///< settings that were asked for
 	Spread spread;              ///< of the row where it stops paying, or of the last
 	double stop_levels = 0;     ///< where it stops paying

@@ -89,22 +89,24 @@ std::optional<Row> BestWithin(const std::vector<Row>& best, double seconds)
 
 std::vector<Row> TableRows(const std::vector<Row>& best, int count)
 {
-	const double coarsest = 0.03, step = 1.5;
+	const double coarsest = 0.03, step = 1.5, finest = 1e-6;
+	// Time grows about so steeply as errors fall. What is best by it lies at the foot of a
+	// step (a MAX is exhausted, the next is not begun) and not on top.
+	const double steepness = 1.5;
+	const auto worth = [&](const Row& row) { return std::log(row.wall) + steepness * std::log(row.predicted.error); };
 	std::vector<Row> rows;
-	double bound = std::min(coarsest, best.front().predicted.error);
-	for (; int(rows.size()) < count; bound /= step)
+	double wanted = std::min(coarsest, best.front().predicted.error);
+	for (; int(rows.size()) < count && wanted > finest; wanted /= step)
 	{
-		const std::optional<Row> row = CheapestBelow(best, [](const Row& r) { return r.predicted.error; }, bound);
-		if (!row)
-			break;
-		if (rows.empty() || row->predicted.error < rows.back().predicted.error)
-			rows.push_back(*row);
-		// A row may overshoot its bound, and no error at all ends the table.
-		if (!(row->predicted.error > 0))
-			break;
-		while (bound / step > row->predicted.error)
-			bound /= step;
+		const Row* chosen = nullptr;
+		for (const Row& row : best)
+			if (row.predicted.error <= wanted * std::sqrt(step) && row.predicted.error > wanted / std::sqrt(step) && (!chosen || worth(row) < worth(*chosen)))
+				chosen = &row;
+		if (chosen)
+			rows.push_back(*chosen);
 	}
+	if (rows.empty())
+		rows.push_back(best.front());
 	return rows;
 }
 

@@ -47,8 +47,8 @@ std::optional<Row> CheapestBelow(const std::vector<Row>& best, const Figure& fig
 /// Row with the least error among those within `seconds` of wall time.
 std::optional<Row> BestWithin(const std::vector<Row>& best, double seconds);
 
-/// The rows of the table: the cheapest for errors that fall by half an octave and more,
-/// at most `count` of them, from 0.03 or the coarsest on.
+/// The rows of the table: of errors about 0.03 (or the coarsest), 0.02, 0.013, ... those that
+/// give most for their time; at most `count` of them and at least one.
 std::vector<Row> TableRows(const std::vector<Row>& best, int count);
 
 /// Index of the first row below `levels` (of 255): where it stops paying. rows.size() for none.
