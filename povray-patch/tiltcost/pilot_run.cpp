@@ -79,16 +79,22 @@ private:
 	Progress progress;
 };
 
+/// POV-Ray takes its options apart at spaces, unless they are quoted.
+std::string Quoted(const std::string& path)
+{
+	return path.find_first_of(" \t") == std::string::npos ? path : '"' + path + '"';
+}
+
 /// The user's options, and after them those that keep the user's picture and screen as they are.
 std::vector<std::string> PilotRenders::Command() const
 {
 	std::vector<std::string> command = {job.povray};
 	const bool ini = job.scene.find(".ini") != std::string::npos;
-	command.push_back(ini ? job.scene : "+I" + job.scene);
+	command.push_back(ini ? Quoted(job.scene) : "+I" + Quoted(job.scene));
 	command.insert(command.end(), job.options.begin(), job.options.end());
 	for (const char* option : {"-D", "-P", "-C", "-A", "+SP1", "+EP1", "+V", "+GA"})
 		command.emplace_back(option);
-	command.push_back("+O" + folder.File("picture"));
+	command.push_back("+O" + Quoted(folder.File("picture")));
 	return command;
 }
 

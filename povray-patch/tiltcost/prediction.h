@@ -59,6 +59,7 @@ public:
 
 	int Samples() const { return samples; }
 	int Blocks() const { return int(blocks.size()); }
+	/// Pixels that predictions rest on: those inside blocks, whose neighbours are known.
 	int Pixels() const { return pixel_count; }
 
 private:
@@ -96,6 +97,7 @@ private:
 
 	static Pixel Prepare(const std::vector<tilt_lens::PilotLevel>& levels);
 	std::vector<size_t> LevelsOf(const Block& block, const std::vector<tilt_lens::SampleLevel>& levels, double variance) const;
+	static bool IsInside(const Block& block, int x, int y);
 	size_t Known(int count) const;
 	void AddErrors(const Class& of, int count, Prediction& sum) const;
 
