@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// tiltcost: what accuracy costs in time, for the user's own scene.
+
+#include "error.h"
+#include "files.h"
+#include "options.h"
+#include "progress.h"
+#include "report.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+
+namespace
+{
+
+using namespace tiltcost;
+
+int Fail(tiltcal::ExitCode code, const std::string& message)
+{
+	fmt::print(stderr, "tiltcost: error: {}\n", message);
+	return code;
+}
+
+/// Before the work starts, not after it.
+void CheckFiles(const Options& options)
+{
+	if (options.job.povray.find('/') != std::string::npos && access(options.job.povray.c_str(), X_OK) != 0)
+		throw tiltcal::FileError(fmt::format("{}: no such program; build the target povray, or give the patched POV-Ray with --povray", options.job.povray));
+	for (const std::string& file : {options.plot, options.csv})
+	{
+		if (file.empty())
+			continue;
+		const std::filesystem::path folder = std::filesystem::absolute(file).parent_path();
+		if (std::filesystem::is_directory(file) || access(folder.c_str(), W_OK | X_OK) != 0)
+			throw tiltcal::FileError(fmt::format("{}: cannot be written; check the folder {}", file, folder.string()));
+	}
+}
+
+/// The answer to --time, --error or --levels; nothing where none was asked.
+std::string Answer(const Options& options, const std::vector<Row>& best)
+{
+	const Figure error = [](const Row& row) { return row.predicted.error; };
+	const Figure levels = [](const Row& row) { return row.predicted.Levels(); };
+	std::optional<Row> row;
+	if (options.time > 0)
+	{
+		row = BestWithin(best, options.time);
+		if (!row)
+			throw tiltcal::Refused(fmt::format("nothing is as fast as {}; the coarsest settings are\n{}", DurationText(options.time), AnswerText(best.front())));
+	}
+	else if (options.error > 0 || options.levels > 0)
+	{
+		row = options.error > 0 ? CheapestBelow(best, error, options.error) : CheapestBelow(best, levels, options.levels);
+		if (!row)
+			throw tiltcal::Refused(fmt::format("blur_samples up to 8192 do not reach it; the finest settings are\n{}", AnswerText(best.back())));
+	}
+	else
+		return {};
+	return AnswerText(*row);
+}
+
+void Run(const Options& options)
+{
+	CheckFiles(options);
+	CatchInterrupts();
+	Report report;
+	report.scene = options.job.scene;
+	report.stop_levels = options.stop_levels;
+	{
+		const TemporaryFolder folder;
+		report.pilot = RunPilots(options.job, folder);
+	}
+	const Pilot pilot(report.pilot.blocks);
+	report.pilot.blocks.clear();
+	report.blocks = pilot.Blocks();
+	report.samples = pilot.Samples();
+
+	Progress progress;
+	progress.Begin("settings");
+	report.best = BestRows(pilot, report.pilot.machine, [&](double share)
+	{
+		CheckInterrupt();
+		progress.Show(fmt::format("{:.0f} %", 100 * share));
+	});
+	progress.End();
+	report.rows = TableRows(report.best, 10);
+	for (const Setting& setting : options.own)
+		report.own.push_back(MakeRow(pilot, report.pilot.machine, setting));
+	const size_t stop = std::min(StopsPaying(report.rows, options.stop_levels), report.rows.size() - 1);
+	report.spread = SpreadOf(pilot, report.pilot.machine, report.rows[stop].setting);
+
+	if (!options.csv.empty())
+		tiltcal::WriteText(options.csv, CsvText(report));
+	if (!options.plot.empty())
+		WritePlot(report, options.plot);
+	const std::string answer = Answer(options, report.best);
+	fmt::print("{}", answer.empty() ? HeaderText(report) + "\n" + TableText(report) : answer);
+}
+
+}
+
+int main(int argc, char** argv)
+{
+	CLI::App app("tiltcost: what accuracy costs in time for a scene with a tilt_lens camera, and which blur_samples and variance\n"
+		"to write into it. Traces a sample of the picture's blocks in a few seconds and predicts the rest.", "tiltcost");
+	try
+	{
+		Run(ParseCommandLine(app, argc, argv));
+		// A full disk or a closed pipe must not look like success.
+		if (std::fflush(stdout) != 0)
+			return Fail(tiltcal::EXIT_FILE, "the results could not be written to stdout");
+		return tiltcal::EXIT_DONE;
+	}
+	catch (const CLI::ParseError& e)
+	{
+		return app.exit(e) == 0 ? tiltcal::EXIT_DONE : tiltcal::EXIT_USAGE;
+	}
+	catch (const tiltcal::Error& e)
+	{
+		return Fail(e.Code(), e.what());
+	}
+	catch (const Interrupted& e)
+	{
+		fmt::print(stderr, "\ntiltcost: interrupted\n");
+		return 128 + e.signal;
+	}
+	catch (const std::exception& e)
+	{
+		return Fail(tiltcal::EXIT_REFUSED, fmt::format("unexpected: {}", e.what()));
+	}
+}

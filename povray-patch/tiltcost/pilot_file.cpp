@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "pilot_file.h"
+
+#include "error.h"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <set>
+#include <sstream>
+
+namespace tiltcost
+{
+
+namespace
+{
+
+using tilt_lens::PilotLevel;
+
+/// One pixel's line; empty when it is not one.
+std::vector<PilotLevel> ParsePixel(const std::string& line)
+{
+	std::vector<PilotLevel> levels;
+	const char* at = line.c_str();
+	char* end = nullptr;
+	for (int n = 1; *at; n *= 2)
+	{
+		PilotLevel level{};
+		level.samples = int(std::strtol(at, &end, 10));
+		if (end == at || level.samples != n)
+			return {};
+		for (double* value : {&level.mean[0], &level.mean[1], &level.mean[2], &level.variance})
+		{
+			at = end;
+			*value = std::strtod(at, &end);
+			if (end == at)
+				return {};
+		}
+		levels.push_back(level);
+		at = end;
+	}
+	return levels;
+}
+
+}
+
+std::vector<PilotBlock> ParsePilot(const std::string& text)
+{
+	std::vector<PilotBlock> blocks;
+	std::set<std::pair<int, int>> seen;
+	std::istringstream in(text);
+	std::string line, word;
+	while (std::getline(in, line))
+	{
+		PilotBlock block;
+		if (!(std::istringstream(line) >> word >> block.left >> block.top >> block.width >> block.height >> block.seconds) ||
+			word != "block" || block.width < 1 || block.height < 1)
+			throw tiltcal::Refused(fmt::format("the pilot render wrote '{:.40}' where a block should begin; do tiltcost and povray belong together?", line));
+		if (!seen.insert({block.left, block.top}).second)
+			throw tiltcal::Refused("more than one frame was rendered; choose one frame of the animation with +SFn +EFn");
+		while (int(block.pixels.size()) < block.width * block.height && std::getline(in, line))
+			block.pixels.push_back(ParsePixel(line));
+		// The file may end within a block or a line: the pilot was stopped.
+		const bool whole = int(block.pixels.size()) == block.width * block.height && !in.eof();
+		if (!whole)
+			break;
+		const size_t levels = blocks.empty() ? block.pixels[0].size() : blocks[0].pixels[0].size();
+		for (const auto& pixel : block.pixels)
+			if (pixel.empty() || pixel.size() != levels)
+				throw tiltcal::Refused("the pilot render wrote pixels that cannot be read; do tiltcost and povray belong together?");
+		blocks.push_back(std::move(block));
+	}
+	return blocks;
+}
+
+double TraceSeconds(const std::vector<PilotBlock>& blocks)
+{
+	double seconds = 0;
+	for (const PilotBlock& block : blocks)
+		seconds += block.seconds;
+	return seconds;
+}
+
+double SecondsPerSample(const std::vector<PilotBlock>& blocks)
+{
+	double samples = 0;
+	for (const PilotBlock& block : blocks)
+		samples += double(block.pixels.size()) * block.pixels[0].back().samples;
+	return samples > 0 ? TraceSeconds(blocks) / samples : 0;
+}
+
+}

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// What a pilot render wrote (tilt_lens/pilot.h), read back.
+
+#ifndef TILTCOST_PILOT_FILE_H
+#define TILTCOST_PILOT_FILE_H
+
+#include "tilt_lens/pilot.h"
+
+#include <string>
+#include <vector>
+
+namespace tiltcost
+{
+
+struct PilotBlock
+{
+	int left = 0, top = 0, width = 0, height = 0;
+	double seconds = 0;     ///< CPU, for all samples of all pixels
+	/// Row by row; of a pixel the sums at 1, 2, 4, ... samples.
+	std::vector<std::vector<tilt_lens::PilotLevel>> pixels;
+};
+
+/// The whole blocks in the text, in its order; a last one that was cut off is left out.
+/// All pixels have the same levels. Throws tiltcal::Error when the text is something
+/// else, and when a block comes twice: more than one frame was rendered.
+std::vector<PilotBlock> ParsePilot(const std::string& text);
+
+/// CPU seconds of all blocks.
+double TraceSeconds(const std::vector<PilotBlock>& blocks);
+
+/// CPU seconds of a sample, on average. 0 without blocks.
+double SecondsPerSample(const std::vector<PilotBlock>& blocks);
+
+}
+
+#endif

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "pilot_run.h"
+
+#include "error.h"
+#include "progress.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+
+namespace tiltcost
+{
+
+namespace
+{
+
+/// Few samples, so that slow scenes do not keep their user waiting before anything is known.
+const PilotPlan TinyPilot = {24, 16};
+
+std::string Contents(const std::string& file)
+{
+	std::ifstream in(file, std::ios::binary);
+	return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// A file that grows: what came since the last look.
+class Growing
+{
+public:
+	explicit Growing(const std::string& name) : file(name) {}
+
+	std::string Next()
+	{
+		std::ifstream in(file, std::ios::binary);
+		in.seekg(at);
+		std::string text{std::istreambuf_iterator<char>(in), {}};
+		at += std::streamoff(text.size());
+		return text;
+	}
+
+private:
+	std::string file;
+	std::streamoff at = 0;
+};
+
+[[noreturn]] void NoTiltLens(const RenderLog& log)
+{
+	if (log.pinhole)
+		throw tiltcal::Refused("the lens has aperture 0: a pinhole, which takes one ray a pixel and has no blur to sample. "
+			"For blur, write aperture_diameter D (world units) or f_stop N into the tilt_lens block");
+	throw tiltcal::Refused("the camera samples no tilt_lens: it is of another type, has aperture 0, or shows focus or plane. "
+		"Write it as\n  camera { tilt_lens { aperture_diameter D } location .. look_at .. focal_point .. }\n"
+		"(povray-patch/REFERENCE.md has all words)");
+}
+
+class PilotRenders
+{
+public:
+	PilotRenders(const Job& what, const TemporaryFolder& where) : job(what), folder(where) {}
+
+	PilotRun Run(const PilotPlan& plan, const std::string& title, int number);
+
+private:
+	std::vector<std::string> Command() const;
+	bool Watch(double seconds);
+
+	const Job& job;
+	const TemporaryFolder& folder;
+	std::unique_ptr<Growing> pilot, messages;
+	std::string last_message;
+	int done = 0, wanted = 0;
+	Progress progress;
+};
+
+/// POV-Ray takes its options apart at spaces, unless they are quoted.
+std::string Quoted(const std::string& path)
+{
+	return path.find_first_of(" \t") == std::string::npos ? path : '"' + path + '"';
+}
+
+/// The user's options, and after them those that keep the user's picture and screen as they are.
+std::vector<std::string> PilotRenders::Command() const
+{
+	std::vector<std::string> command = {job.povray};
+	const bool ini = job.scene.find(".ini") != std::string::npos;
+	command.push_back(ini ? Quoted(job.scene) : "+I" + Quoted(job.scene));
+	command.insert(command.end(), job.options.begin(), job.options.end());
+	for (const char* option : {"-D", "-P", "-C", "-A", "+SP1", "+EP1", "+V", "+GA"})
+		command.emplace_back(option);
+	command.push_back("+O" + Quoted(folder.File("picture")));
+	return command;
+}
+
+bool PilotRenders::Watch(double seconds)
+{
+	// The letter occurs once in a block's text.
+	const std::string grown = pilot->Next();
+	done += int(std::count(grown.begin(), grown.end(), 'b'));
+	progress.Show(fmt::format("{} of {} blocks, {:.0f} s", std::min(done, wanted), wanted, seconds));
+
+	// A camera without tilt_lens renders the whole picture: half of it is enough to know.
+	const std::string said = messages->Next();
+	const size_t at = said.rfind("Rendered ");
+	double rendered = 0, all = 0;
+	const double patience = 3;
+	return done > 0 || seconds < patience || at == std::string::npos ||
+		std::sscanf(said.c_str() + at, "Rendered %lf of %lf", &rendered, &all) != 2 || rendered < all / 2;
+}
+
+PilotRun PilotRenders::Run(const PilotPlan& plan, const std::string& title, int number)
+{
+	const std::string file = folder.File(fmt::format("pilot{}", number)), log = folder.File(fmt::format("log{}", number));
+	pilot = std::make_unique<Growing>(file);
+	messages = std::make_unique<Growing>(log);
+	done = 0;
+	wanted = plan.blocks;
+	progress.Begin(title);
+	const ProcessResult result = RunProcess(Command(), fmt::format("{}={},{},{}", tilt_lens::PilotVariable, plan.blocks, plan.samples, file), log,
+		[this](double seconds) { return Watch(seconds); });
+	progress.End();
+
+	PilotRun run;
+	const std::string said = Contents(log);
+	run.log = ReadRenderLog(said);
+	if (result.exit_code == 126 || result.exit_code == 127)
+		throw tiltcal::FileError(fmt::format("{}: cannot be run; give the patched POV-Ray with --povray", job.povray));
+	if (result.exit_code != 0)
+		throw tiltcal::Refused(fmt::format("POV-Ray does not render {}:\n{}", job.scene, ErrorLines(said)));
+	run.blocks = ParsePilot(Contents(file));
+	if (run.blocks.empty())
+		NoTiltLens(run.log);
+	const double trace = TraceSeconds(run.blocks);
+	run.wall = result.wall;
+	run.machine.threads = run.log.threads;
+	run.machine.pixels = run.log.pixels;
+	run.machine.start_cpu = std::max(0.0, result.cpu - trace);
+	run.machine.start_wall = std::max(0.0, result.wall - trace / run.log.threads);
+	return run;
+}
+
+}
+
+PilotPlan PlanPilot(double seconds_per_sample, int threads, double seconds, int most_blocks)
+{
+	const int pixels = tilt_lens::PilotBlockSize * tilt_lens::PilotBlockSize;
+	// Samples, and the blocks below which it is better to halve them.
+	const PilotPlan enough[] = {{150, 1024}, {110, 512}, {80, 256}, {60, 128}, {24, 64}};
+	for (const PilotPlan& plan : enough)
+	{
+		const double affordable = seconds * threads / std::max(1e-12, seconds_per_sample * pixels * plan.samples);
+		if (affordable >= std::min(plan.blocks, most_blocks))
+			return {int(std::min<double>(affordable, most_blocks)), plan.samples};
+	}
+	return {std::min(24, most_blocks), 64};
+}
+
+PilotRun RunPilots(const Job& job, const TemporaryFolder& folder)
+{
+	PilotRenders renders(job, folder);
+	const PilotRun tiny = renders.Run(TinyPilot, "first pilot", 1);
+	const PilotPlan plan = PlanPilot(SecondsPerSample(tiny.blocks), tiny.machine.threads, job.pilot_seconds, job.most_blocks);
+	PilotRun run = renders.Run(plan, "pilot render", 2);
+	run.wall += tiny.wall;
+	// Both started the same way; the first wrote less, and the machine may have been busy in either.
+	run.machine.start_cpu = std::min(run.machine.start_cpu, tiny.machine.start_cpu);
+	run.machine.start_wall = std::min(run.machine.start_wall, tiny.machine.start_wall);
+	return run;
+}
+
+}

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// The pilot renders of a scene: a tiny one to learn what a sample costs, and one that
+// fills the time that was given.
+
+#ifndef TILTCOST_PILOT_RUN_H
+#define TILTCOST_PILOT_RUN_H
+
+#include "pilot_file.h"
+#include "process.h"
+#include "search.h"
+
+#include <string>
+#include <vector>
+
+namespace tiltcost
+{
+
+/// How to render the scene.
+struct Job
+{
+	std::string povray;                 ///< the patched program
+	std::string scene;                  ///< .pov or .ini, as POV-Ray is to see it
+	std::vector<std::string> options;   ///< POV-Ray's own
+	double pilot_seconds = 10;          ///< wall time for the larger pilot's samples
+	int most_blocks = 300;
+};
+
+struct PilotPlan
+{
+	int blocks, samples;
+};
+
+/// What to trace in `seconds` on `threads`, if a sample costs `seconds_per_sample`: the most
+/// samples per pixel (64 to 1024) that leave blocks enough to stand for the picture.
+PilotPlan PlanPilot(double seconds_per_sample, int threads, double seconds, int most_blocks);
+
+/// What POV-Ray said about a render.
+struct RenderLog
+{
+	int width = 0, height = 0;          ///< of the picture
+	double pixels = 0;                  ///< of the rows and columns that are rendered
+	int threads = 1;
+	bool radiosity = false, photons = false;
+	bool pinhole = false;               ///< a tilt_lens with aperture 0
+};
+
+RenderLog ReadRenderLog(const std::string& log);
+
+/// POV-Ray's own error lines, or its last ones where it names no error.
+std::string ErrorLines(const std::string& log);
+
+struct PilotRun
+{
+	std::vector<PilotBlock> blocks;
+	Machine machine;
+	RenderLog log;
+	double wall = 0;                    ///< seconds that both pilots took
+};
+
+/// Renders with progress on stderr. Throws tiltcal::Error where the scene does not render or has no
+/// tilt_lens with an aperture, and Interrupted.
+PilotRun RunPilots(const Job& job, const TemporaryFolder& folder);
+
+}
+
+#endif

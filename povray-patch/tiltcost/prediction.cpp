@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "prediction.h"
+
+#include <boost/math/distributions/chi_squared.hpp>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tiltcost
+{
+
+using tilt_lens::PilotLevel;
+using tilt_lens::SampleLevel;
+
+namespace
+{
+
+double Square(double x) { return x * x; }
+
+double Clipped(double x) { return std::min(1.0, std::max(0.0, x)); }
+
+/// IEC 61966-2-1.
+double DisplayEncoded(double x) { return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055; }
+
+struct Rgb
+{
+	double c[3];
+
+	double SquaredDistance(const Rgb& o) const { return (Square(c[0] - o.c[0]) + Square(c[1] - o.c[1]) + Square(c[2] - o.c[2])) / 3; }
+};
+
+}
+
+double Chi2(double df, double c)
+{
+	return boost::math::quantile(boost::math::complement(boost::math::chi_squared(df), c));
+}
+
+std::string SceneText(const Setting& setting)
+{
+	const std::string samples = setting.min > 0 ? fmt::format("blur_samples {}, {}", setting.min, setting.max) : fmt::format("blur_samples {}", setting.max);
+	return samples + fmt::format("  variance {:.9g}", setting.variance);
+}
+
+Pilot::Pilot(const std::vector<PilotBlock>& read)
+{
+	for (const PilotBlock& from : read)
+	{
+		Block block;
+		block.width = from.width;
+		block.height = from.height;
+		samples = from.pixels[0].back().samples;
+		block.seconds_per_sample = from.seconds / (double(from.pixels.size()) * samples);
+		for (const auto& levels : from.pixels)
+			block.pixels.push_back(Prepare(levels));
+		for (int i = 0; i < block.width * block.height; ++i)
+			pixel_count += IsInside(block, i % block.width, i / block.width);
+		blocks.push_back(std::move(block));
+	}
+}
+
+Pilot::Pixel Pilot::Prepare(const std::vector<PilotLevel>& levels)
+{
+	std::vector<Rgb> means[SCALES];
+	for (const PilotLevel& level : levels)
+	{
+		Rgb linear{}, encoded{};
+		for (int i = 0; i < 3; ++i)
+		{
+			linear.c[i] = Clipped(level.mean[i]);
+			encoded.c[i] = DisplayEncoded(linear.c[i]);
+		}
+		means[LINEAR].push_back(linear);
+		means[ENCODED].push_back(encoded);
+	}
+
+	Pixel pixel;
+	for (size_t k = 0; k < levels.size(); ++k)
+		pixel.levels.push_back({tilt_lens::ToUncertainty(levels[k].variance), levels[k].variance,
+			{means[LINEAR][k].SquaredDistance(means[LINEAR].back()), means[ENCODED][k].SquaredDistance(means[ENCODED].back())}});
+	for (int scale = 0; scale < SCALES; ++scale)
+	{
+		tilt_lens::LevelChanges& c = pixel.changes[scale];
+		c.pixels = 1;
+		c.changes = std::min(tilt_lens::ChangesKept, int(levels.size()) - 1);
+		for (int j = 0; j < c.changes; ++j)
+			c.change[j] = means[scale][levels.size() - 1 - size_t(j)].SquaredDistance(means[scale][levels.size() - 2 - size_t(j)]);
+	}
+	return pixel;
+}
+
+/// Index of the largest power of two that the pilot has and that is not above `count`.
+size_t Pilot::Known(int count) const
+{
+	size_t k = 0;
+	while ((2 << k) <= std::min(count, samples))
+		++k;
+	return k;
+}
+
+/// Whether a pixel's whole neighbourhood lies in the block. Near the edge voters are missing who
+/// are there in a render: errors of settings that start with few samples came out a third too large.
+bool Pilot::IsInside(const Block& block, int x, int y)
+{
+	const int reach = tilt_lens::NeighbourReach;
+	// Blocks at the picture's right and bottom edge may be too narrow to have an inside.
+	const bool wide = block.width > 2 * reach, high = block.height > 2 * reach;
+	return (!wide || (x >= reach && x < block.width - reach)) && (!high || (y >= reach && y < block.height - reach));
+}
+
+/// The level that each pixel of a block goes on to, as if the block were the picture.
+std::vector<size_t> Pilot::LevelsOf(const Block& block, const std::vector<SampleLevel>& levels, double variance) const
+{
+	std::vector<size_t> chosen(block.pixels.size(), 0);
+	if (levels.size() == 1)
+		return chosen;
+
+	std::vector<size_t> known;
+	for (const SampleLevel& level : levels)
+		known.push_back(Known(level.samples));
+	std::vector<tilt_lens::Uncertainty> uncertainty;
+	for (size_t i = 0; i < block.pixels.size(); ++i)
+	{
+		const auto& at = block.pixels[i].levels;
+		size_t& l = chosen[i];
+		while (l + 1 < levels.size() && !(at[known[l]].variance < levels[l].stop_below * levels[l].samples))
+			++l;
+		uncertainty.push_back(at[known[l]].uncertainty);
+	}
+	const tilt_lens::UncertaintyMap map = {uncertainty.data(), 0, 0, block.width};
+	for (int y = 0; y < block.height; ++y)
+		for (int x = 0; x < block.width; ++x)
+		{
+			size_t& l = chosen[size_t(y * block.width + x)];
+			l = NeighbourhoodLevel(levels, l, NeighbourhoodVariance(map, x, y, 0, 0, block.width - 1, block.height - 1), variance);
+		}
+	return chosen;
+}
+
+/// Adds the squared errors of the pixels that take `count` samples.
+void Pilot::AddErrors(const Class& of, int count, Prediction& sum) const
+{
+	const size_t k = Known(count);
+	for (int scale = 0; scale < SCALES; ++scale)
+	{
+		double exponent = 1;
+		const double left = of.changes[scale].SumOfVariances(&exponent);
+		// Beyond what the pilot has (a power of two up to N) the error goes on falling.
+		const double fall = std::pow(double(1 << k) / count, exponent);
+		(scale == LINEAR ? sum.error : sum.encoded_error) += (of.off[scale] + left) * fall;
+		if (scale == LINEAR && count > samples)
+			sum.extrapolated += (of.off[scale] + left) * fall;
+	}
+}
+
+Prediction Pilot::Predict(const Setting& setting, int part, int parts) const
+{
+	const std::vector<SampleLevel> levels = tilt_lens::SampleLevels(setting.min, setting.max, setting.variance, setting.confidence, &Chi2);
+	std::vector<size_t> known;
+	for (const SampleLevel& level : levels)
+		known.push_back(Known(level.samples));
+	std::vector<Class> classes(levels.size());
+	Prediction sum;
+	double pixels = 0;
+
+	for (size_t b = 0; b < blocks.size(); ++b)
+	{
+		const Block& block = blocks[b];
+		if (parts > 1 && int(b) % parts == part)
+			continue;
+		const std::vector<size_t> chosen = LevelsOf(block, levels, setting.variance);
+		double taken = 0;
+		for (size_t i = 0; i < block.pixels.size(); ++i)
+		{
+			if (!IsInside(block, int(i) % block.width, int(i) / block.width))
+				continue;
+			Class& c = classes[chosen[i]];
+			c.pixels++;
+			pixels++;
+			taken += levels[chosen[i]].samples;
+			for (int scale = 0; scale < SCALES; ++scale)
+			{
+				c.off[scale] += block.pixels[i].levels[known[chosen[i]]].off[scale];
+				c.changes[scale] += block.pixels[i].changes[scale];
+			}
+		}
+		sum.samples_per_pixel += taken;
+		sum.seconds_per_pixel += taken * block.seconds_per_sample;
+	}
+	for (size_t l = 0; l < levels.size(); ++l)
+		if (classes[l].pixels > 0)
+			AddErrors(classes[l], levels[l].samples, sum);
+
+	sum.extrapolated = sum.error > 0 ? sum.extrapolated / sum.error : 0;
+	sum.error = std::sqrt(sum.error / pixels);
+	sum.encoded_error = std::sqrt(sum.encoded_error / pixels);
+	sum.samples_per_pixel /= pixels;
+	sum.seconds_per_pixel /= pixels;
+	return sum;
+}
+
+}

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// From a pilot render to what a setting of blur_samples and variance costs and gives.
+//
+// The pilot knows of each of its pixels the means m(n) and sample variances at n = 1, 2,
+// 4, ... N. The number of samples n that the renderer would take follows from the
+// functions that the renderer decides with (tilt_lens/adaptive.h). The expected square
+// of the error left is then (m(n) - m(N))^2 + v(N), v(N) the variance of m(N) by
+// tilt_lens/convergence.h over all pixels that take n; beyond N, v(N) (N/n)^a. Means are
+// clipped to 0 .. 1, as in a picture file.
+
+#ifndef TILTCOST_PREDICTION_H
+#define TILTCOST_PREDICTION_H
+
+#include "pilot_file.h"
+
+#include "tilt_lens/adaptive.h"
+#include "tilt_lens/convergence.h"
+
+#include <string>
+#include <vector>
+
+namespace tiltcost
+{
+
+/// What a scene says. variance 0: always `max`. min 0: none named.
+struct Setting
+{
+	int min = 0, max = 128;
+	double variance = 0.0001, confidence = 0.9;
+};
+
+/// As to be written into the camera block.
+std::string SceneText(const Setting& setting);
+
+struct Prediction
+{
+	double error = 0;               ///< RMS over pixels and channels, linear, white = 1
+	double encoded_error = 0;       ///< the same of display-encoded (sRGB) values
+	double samples_per_pixel = 0;
+	double seconds_per_pixel = 0;   ///< CPU, tracing only
+	double extrapolated = 0;        ///< share of the error's square that lies beyond the pilot's samples
+
+	/// RMS in steps of an 8-bit picture.
+	double Levels() const { return 255 * encoded_error; }
+};
+
+/// A pilot render, prepared for many predictions.
+class Pilot
+{
+public:
+	/// Blocks as of ParsePilot, at least one.
+	explicit Pilot(const std::vector<PilotBlock>& blocks);
+
+	Prediction Predict(const Setting& setting) const { return Predict(setting, 0, 1); }
+
+	/// Leaves out every block whose index is `part` modulo `parts` (parts > 1): for the jackknife.
+	Prediction Predict(const Setting& setting, int part, int parts) const;
+
+	int Samples() const { return samples; }
+	int Blocks() const { return int(blocks.size()); }
+	/// Pixels that predictions rest on: those inside blocks, whose neighbours are known.
+	int Pixels() const { return pixel_count; }
+
+private:
+	/// The two ways an error is measured in.
+	enum Scale { LINEAR, ENCODED, SCALES };
+
+	/// A pixel at a power of two.
+	struct Level
+	{
+		tilt_lens::Uncertainty uncertainty;
+		double variance;                ///< of a sample
+		double off[SCALES];             ///< squared distance from m(N), averaged over the channels
+	};
+
+	struct Pixel
+	{
+		std::vector<Level> levels;      ///< index k: 2^k samples
+		tilt_lens::LevelChanges changes[SCALES];    ///< up to N samples
+	};
+
+	struct Block
+	{
+		int width, height;
+		double seconds_per_sample;
+		std::vector<Pixel> pixels;
+	};
+
+	/// Pixels that take the same number of samples.
+	struct Class
+	{
+		double pixels = 0;
+		double off[SCALES] = {};
+		tilt_lens::LevelChanges changes[SCALES];
+	};
+
+	static Pixel Prepare(const std::vector<tilt_lens::PilotLevel>& levels);
+	std::vector<size_t> LevelsOf(const Block& block, const std::vector<tilt_lens::SampleLevel>& levels, double variance) const;
+	static bool IsInside(const Block& block, int x, int y);
+	size_t Known(int count) const;
+	void AddErrors(const Class& of, int count, Prediction& sum) const;
+
+	std::vector<Block> blocks;
+	int samples = 0, pixel_count = 0;
+};
+
+/// The value that a chi-squared variable of df degrees of freedom exceeds with
+/// probability c: POV-Ray's chdtri.
+double Chi2(double df, double c);
+
+}
+
+#endif

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tiltcost
+{
+
+namespace
+{
+
+/// Beyond this share of the error's square a row counts as extrapolated.
+const double MuchExtrapolated = 0.5;
+
+std::string RowText(const Row& row, char mark)
+{
+	const Prediction& p = row.predicted;
+	return fmt::format("{} {:>9.5f}{}  {:>7.2f}  {:>8.1f}  {:>8}  {:>12}  {:>12}  {}\n", mark, p.error, p.extrapolated > MuchExtrapolated ? '~' : ' ',
+		p.Levels(), p.samples_per_pixel, CountText(row.rays), DurationText(row.cpu), DurationText(row.wall), SceneText(row.setting));
+}
+
+std::string Quoted(const std::string& text)
+{
+	std::string quoted = "\"";
+	for (const char c : text)
+		quoted += c == '"' ? "\"\"" : std::string(1, c);
+	return quoted + "\"";
+}
+
+std::string StopText(const Report& report, size_t stop)
+{
+	const std::string bound = fmt::format("{:.2g} of an 8-bit level", report.stop_levels);
+	if (stop == report.rows.size())
+		return fmt::format("No row reaches {}, where it stops paying: every row still gains.\n", bound);
+	return fmt::format("* Here it stops paying: the first row whose error is below {}{}.\n"
+		"  Finer rows cost time that an 8-bit picture does not show; --stop-levels sets another bound.\n",
+		bound, std::abs(report.stop_levels - 0.29) < 1e-9 ? ", the RMS of rounding to 8 bits" : "");
+}
+
+}
+
+std::string DurationText(double seconds)
+{
+	if (seconds < 99.95)
+		return fmt::format("{:.1f} s", seconds);
+	const double minutes = std::floor(seconds / 60 + 0.5 / 60);
+	if (minutes < 100)
+		return fmt::format("{:.0f} min {:02.0f} s", minutes, std::max(0.0, std::floor(seconds + 0.5) - 60 * minutes));
+	const double whole = std::floor(seconds / 60 + 0.5);
+	return fmt::format("{:.0f} h {:02.0f} min", std::floor(whole / 60), std::fmod(whole, 60));
+}
+
+std::string CountText(double count)
+{
+	const char* prefixes[] = {"", " k", " M", " G", " T"};
+	size_t i = 0;
+	for (; count >= 999.5 && i + 1 < std::size(prefixes); ++i)
+		count /= 1000;
+	return fmt::format("{:.3g}{}", count, prefixes[i]);
+}
+
+std::string HeaderText(const Report& report)
+{
+	const RenderLog& log = report.pilot.log;
+	const Machine& machine = report.pilot.machine;
+	std::string text = fmt::format("{}: {} x {} pixels{}, {} thread{}\n", report.scene, log.width, log.height,
+		log.pixels < double(log.width) * log.height ? fmt::format(" ({} of them rendered)", CountText(log.pixels)) : "",
+		machine.threads, machine.threads > 1 ? "s" : "");
+	text += fmt::format("Pilot: {} blocks of 8 x 8 pixels, {} samples each, in {}. Before the first ray: {} ({} CPU).\n", report.blocks, report.samples,
+		DurationText(report.pilot.wall), DurationText(machine.start_wall), DurationText(machine.start_cpu));
+	if (report.spread.error > 0 || report.spread.seconds > 0)
+		text += fmt::format("Predicted from a part of the picture: errors within {:.0f} %, times within {:.0f} % (one standard deviation).\n",
+			std::ceil(100 * report.spread.error), std::ceil(100 * report.spread.seconds));
+	if (log.radiosity)
+		text += "Radiosity: its pretrace is part of the start; what is gathered while tracing is not predicted well.\n";
+	return text;
+}
+
+std::string TableText(const Report& report)
+{
+	std::string text = "  RMS error     8-bit      rays      rays      CPU time  render time  to write into the camera block\n"
+		"    (of 1)     levels  per pixel     in all\n";
+	const size_t stop = StopsPaying(report.rows, report.stop_levels);
+	bool extrapolated = false;
+	for (size_t i = 0; i < report.rows.size(); ++i)
+	{
+		text += RowText(report.rows[i], i == stop ? '*' : ' ');
+		extrapolated |= report.rows[i].predicted.extrapolated > MuchExtrapolated;
+	}
+	for (const Row& row : report.own)
+	{
+		text += RowText(row, '=');
+		extrapolated |= row.predicted.extrapolated > MuchExtrapolated;
+	}
+	text += StopText(report, stop);
+	if (!report.own.empty())
+		text += "= The settings that --setting names.\n";
+	if (extrapolated)
+		text += fmt::format("~ Extrapolated beyond the pilot's {} samples.\n", report.samples);
+	return text;
+}
+
+std::string AnswerText(const Row& row)
+{
+	return fmt::format("{}\n", SceneText(row.setting)) + fmt::format("  RMS error {:.5f}{}, {:.2f} 8-bit levels; {} rays, {:.1f} per pixel; {} ({} CPU)\n", row.predicted.error,
+		row.predicted.extrapolated > MuchExtrapolated ? " (extrapolated)" : "", row.predicted.Levels(), CountText(row.rays),
+		row.predicted.samples_per_pixel, DurationText(row.wall), DurationText(row.cpu));
+}
+
+std::string CsvText(const Report& report)
+{
+	std::string text = "scene,kind,rms_error,levels_8bit,rays,rays_per_pixel,cpu_s,wall_s,min,max,variance,confidence,extrapolated\n";
+	const size_t stop = StopsPaying(report.rows, report.stop_levels);
+	const auto add = [&](const Row& row, const char* kind)
+	{
+		const Prediction& p = row.predicted;
+		text += fmt::format("{},{},{:.6g},{:.4g},{:.6g},{:.5g},{:.5g},{:.5g},{},{},{:.9g},{:.9g},{:.3g}\n", Quoted(report.scene), kind, p.error, p.Levels(), row.rays,
+			p.samples_per_pixel, row.cpu, row.wall, row.setting.min, row.setting.max, row.setting.variance, row.setting.confidence, p.extrapolated);
+	};
+	for (size_t i = 0; i < report.rows.size(); ++i)
+		add(report.rows[i], i == stop ? "stops-paying" : "row");
+	for (const Row& row : report.own)
+		add(row, "own");
+	return text;
+}
+
+}

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "search.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tiltcost
+{
+
+Row MakeRow(const Pilot& pilot, const Machine& machine, const Setting& setting)
+{
+	Row row{setting, pilot.Predict(setting)};
+	const double trace = row.predicted.seconds_per_pixel * machine.pixels;
+	row.rays = row.predicted.samples_per_pixel * machine.pixels;
+	row.cpu = machine.start_cpu + trace;
+	row.wall = machine.start_wall + trace / machine.threads;
+	return row;
+}
+
+namespace
+{
+
+std::vector<Setting> Grid()
+{
+	const int least_min = 4, greatest_min = 32, least_max = 16, greatest_max = 8192;
+	std::vector<Setting> grid;
+	for (int max = least_max / 4; max <= greatest_max; max *= 2)
+	{
+		Setting setting;
+		setting.max = max;
+		setting.variance = 0;
+		grid.push_back(setting);
+		if (max < least_max)
+			continue;
+		for (setting.min = least_min; setting.min <= std::min(greatest_min, max / 2); setting.min *= 2)
+			for (const double variance : {1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7, 3e-8})
+			{
+				setting.variance = variance;
+				grid.push_back(setting);
+			}
+	}
+	return grid;
+}
+
+}
+
+std::vector<Row> BestRows(const Pilot& pilot, const Machine& machine, const std::function<void(double)>& progress)
+{
+	const std::vector<Setting> grid = Grid();
+	std::vector<Row> all, best;
+	for (const Setting& setting : grid)
+	{
+		all.push_back(MakeRow(pilot, machine, setting));
+		if (progress)
+			progress(double(all.size()) / double(grid.size()));
+	}
+	// Of equals the one with the larger minimum: it relies least on few samples.
+	std::stable_sort(all.begin(), all.end(), [](const Row& a, const Row& b)
+	{
+		if (a.cpu != b.cpu)
+			return a.cpu < b.cpu;
+		if (a.predicted.error != b.predicted.error)
+			return a.predicted.error < b.predicted.error;
+		return a.setting.min > b.setting.min;
+	});
+	for (const Row& row : all)
+		if (best.empty() || row.predicted.error < best.back().predicted.error)
+			best.push_back(row);
+	return best;
+}
+
+std::optional<Row> CheapestBelow(const std::vector<Row>& best, const Figure& figure, double bound)
+{
+	for (const Row& row : best)
+		if (figure(row) <= bound)
+			return row;
+	return {};
+}
+
+std::optional<Row> BestWithin(const std::vector<Row>& best, double seconds)
+{
+	std::optional<Row> found;
+	for (const Row& row : best)
+		if (row.wall <= seconds)
+			found = row;
+	return found;
+}
+
+std::vector<Row> TableRows(const std::vector<Row>& best, int count)
+{
+	const double coarsest = 0.03, step = 1.5, finest = 1e-6;
+	// Time grows about so steeply as errors fall. What is best by it lies at the foot of a
+	// step (a MAX is exhausted, the next is not begun) and not on top.
+	const double steepness = 1.5;
+	const auto worth = [&](const Row& row) { return std::log(row.wall) + steepness * std::log(row.predicted.error); };
+	std::vector<Row> rows;
+	double wanted = std::min(coarsest, best.front().predicted.error);
+	for (; int(rows.size()) < count && wanted > finest; wanted /= step)
+	{
+		const Row* chosen = nullptr;
+		for (const Row& row : best)
+			if (row.predicted.error <= wanted * std::sqrt(step) && row.predicted.error > wanted / std::sqrt(step) && (!chosen || worth(row) < worth(*chosen)))
+				chosen = &row;
+		if (chosen)
+			rows.push_back(*chosen);
+	}
+	if (rows.empty())
+		rows.push_back(best.front());
+	return rows;
+}
+
+size_t StopsPaying(const std::vector<Row>& rows, double levels)
+{
+	size_t i = 0;
+	while (i < rows.size() && rows[i].predicted.Levels() > levels)
+		++i;
+	return i;
+}
+
+Spread SpreadOf(const Pilot& pilot, const Machine& machine, const Setting& setting)
+{
+	const int parts = 10;
+	if (pilot.Blocks() < 2 * parts)
+		return {};
+	std::vector<double> errors, seconds;
+	for (int part = 0; part < parts; ++part)
+	{
+		const Prediction p = pilot.Predict(setting, part, parts);
+		errors.push_back(p.error);
+		seconds.push_back(machine.start_cpu + p.seconds_per_pixel * machine.pixels);
+	}
+	const auto relative = [&](const std::vector<double>& of)
+	{
+		double mean = 0, squares = 0;
+		for (const double x : of)
+			mean += x / parts;
+		for (const double x : of)
+			squares += (x - mean) * (x - mean);
+		return mean > 0 ? std::sqrt(squares * (parts - 1) / parts) / mean : 0;
+	};
+	// Blocks that are traced are not uncertain.
+	const double untraced = std::sqrt(std::max(0.0, 1 - pilot.Pixels() / machine.pixels));
+	return {relative(errors) * untraced, relative(seconds) * untraced};
+}
+
+}

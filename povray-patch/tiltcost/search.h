@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// Which settings are worth having: the cheapest for an error, the best for a time.
+
+#ifndef TILTCOST_SEARCH_H
+#define TILTCOST_SEARCH_H
+
+#include "prediction.h"
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace tiltcost
+{
+
+/// What the whole picture costs besides its samples, and on how many threads.
+struct Machine
+{
+	double pixels = 0;              ///< of the picture, or of the part that is rendered
+	double start_cpu = 0;           ///< seconds before and beside tracing: parsing, photons, output
+	double start_wall = 0;
+	int threads = 1;
+};
+
+/// A row of the table.
+struct Row
+{
+	Setting setting;
+	Prediction predicted;
+	double rays = 0, cpu = 0, wall = 0;     ///< of the whole picture, seconds
+};
+
+Row MakeRow(const Pilot& pilot, const Machine& machine, const Setting& setting);
+
+/// The settings that no other one beats in both error and time, the coarsest first. MIN 4 to
+/// 32, MAX 16 to 8192, variance in half decades, and fixed numbers of samples.
+/// `progress`, where given, is called with the share that is done.
+std::vector<Row> BestRows(const Pilot& pilot, const Machine& machine, const std::function<void(double)>& progress = {});
+
+/// A figure that is bounded: error, levels or time.
+typedef std::function<double(const Row&)> Figure;
+
+/// Cheapest row whose `figure` is at most `bound`. `best` as of BestRows.
+std::optional<Row> CheapestBelow(const std::vector<Row>& best, const Figure& figure, double bound);
+
+/// Row with the least error among those within `seconds` of wall time.
+std::optional<Row> BestWithin(const std::vector<Row>& best, double seconds);
+
+/// The rows of the table: of errors about 0.03 (or the coarsest), 0.02, 0.013, ... those that
+/// give most for their time; at most `count` of them and at least one.
+std::vector<Row> TableRows(const std::vector<Row>& best, int count);
+
+/// Index of the first row below `levels` (of 255): where it stops paying. rows.size() for none.
+size_t StopsPaying(const std::vector<Row>& rows, double levels);
+
+/// One standard deviation of a row's error and of its time, relative, that come from tracing
+/// some blocks instead of all: jackknife over ten groups of blocks.
+struct Spread
+{
+	double error = 0, seconds = 0;
+};
+Spread SpreadOf(const Pilot& pilot, const Machine& machine, const Setting& setting);
+
+}
+
+#endif

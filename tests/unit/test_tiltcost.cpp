@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// tiltcost's arithmetic, on pilots whose answers are known without it.
+
+#include "error.h"
+#include "pilot_run.h"
+#include "prediction.h"
+#include "report.h"
+#include "search.h"
+
+#include "tilt_lens/pilot.h"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+using namespace tiltcost;
+using testing::HasSubstr;
+using tilt_lens::PilotLevel;
+
+namespace
+{
+
+const int Side = tilt_lens::PilotBlockSize;
+
+/// A block's text as the renderer writes it; `level(pixel, k)` is the pixel at 2^k samples.
+std::string BlockText(int left, double seconds, int samples, const std::function<PilotLevel(int pixel, int k)>& level)
+{
+	std::vector<std::vector<PilotLevel>> pixels(Side * Side);
+	for (int i = 0; i < Side * Side; ++i)
+		for (int k = 0; (1 << k) <= samples; ++k)
+		{
+			pixels[size_t(i)].push_back(level(i, k));
+			pixels[size_t(i)].back().samples = 1 << k;
+		}
+	return tilt_lens::PilotText(left, 0, Side, Side, seconds, pixels);
+}
+
+PilotLevel Grey(double mean, double variance) { return {1, {mean, mean, mean}, variance}; }
+
+std::string Flat(int left, double seconds, int samples, double mean, double variance)
+{
+	return BlockText(left, seconds, samples, [=](int, int) { return Grey(mean, variance); });
+}
+
+/// Number among the 16 pixels inside a block of 8 x 8, whose neighbours all lie in it too.
+int InsideNumber(int pixel)
+{
+	return (pixel % Side - 2 + 4) % 4 + 4 * ((pixel / Side - 2 + 4) % 4);
+}
+
+int Parity(int bits)
+{
+	int parity = 0;
+	for (; bits; bits &= bits - 1)
+		parity ^= 1;
+	return parity;
+}
+
+/// Means whose squared changes are v(n/2) - v(n) for v(n) = size n^-exponent in every pixel, with signs
+/// (Walsh functions) that are orthogonal over the inside: averaged there, (m(n) - m(N))^2 is v(n) - v(N) exactly.
+std::string PowerLaw(int left, int samples, double mean, double size, double exponent)
+{
+	return BlockText(left, 1, samples, [=](int pixel, int k)
+	{
+		double m = mean;
+		for (int j = 1; j <= k; ++j)
+		{
+			const double change = std::sqrt(size * (std::pow(2.0, -exponent * (j - 1)) - std::pow(2.0, -exponent * j)));
+			m += Parity(InsideNumber(pixel) & j) ? change : -change;
+		}
+		return Grey(m, 0.01);
+	});
+}
+
+Setting Fixed(int samples) { return {0, samples, 0, 0.9}; }
+
+}
+
+TEST(PilotFile, WholeBlocksAreReadAndTheCutOneLeftOut)
+{
+	const std::string whole = Flat(0, 0.5, 4, 0.25, 0.1), next = Flat(8, 0.25, 4, 0.5, 0.2);
+	const auto blocks = ParsePilot(whole + next + Flat(16, 1, 4, 0, 0).substr(0, 700));
+	ASSERT_EQ(blocks.size(), 2u);
+	EXPECT_EQ(blocks[1].left, 8);
+	EXPECT_EQ(blocks[1].pixels.size(), 64u);
+	EXPECT_EQ(blocks[1].pixels[63].back().samples, 4);
+	EXPECT_DOUBLE_EQ(blocks[1].pixels[63].back().variance, 0.2);
+	EXPECT_DOUBLE_EQ(TraceSeconds(blocks), 0.75);
+	EXPECT_DOUBLE_EQ(SecondsPerSample(blocks), 0.75 / (2 * 64 * 4));
+	// Cut in the last number of a pixel: what is left of it would be read as another number.
+	EXPECT_EQ(ParsePilot(whole.substr(0, whole.size() - 2)).size(), 0u);
+	EXPECT_TRUE(ParsePilot("").empty());
+}
+
+TEST(PilotFile, WhatIsNoPilotIsRefused)
+{
+	EXPECT_THROW(ParsePilot("P6 640 480\n"), tiltcal::Error);
+	std::string text = Flat(0, 1, 4, 0.5, 0.1);
+	text.replace(text.find('\n') + 1, 1, "7");
+	EXPECT_THROW(ParsePilot(text), tiltcal::Error);
+	try
+	{
+		ParsePilot(Flat(0, 1, 4, 0.5, 0.1) + Flat(0, 1, 4, 0.5, 0.1));
+		FAIL() << "two frames in one pilot";
+	}
+	catch (const tiltcal::Error& e)
+	{
+		EXPECT_THAT(e.what(), HasSubstr("+SF"));
+	}
+}
+
+TEST(Prediction, Chi2IsWhatIsExceededWithThatProbability)
+{
+	// Tables of the chi-squared distribution, lower tail 0.10 and 0.05.
+	EXPECT_NEAR(Chi2(15, 0.9), 8.547, 0.0005);
+	EXPECT_NEAR(Chi2(3, 0.95), 0.352, 0.0005);
+}
+
+TEST(Prediction, FixedSamplesFollowThePowerLawAndGoOnBeyondThePilot)
+{
+	const double size = 4e-3;
+	for (const double exponent : {1.0, 1.3, 1.6})
+	{
+		const Pilot pilot(ParsePilot(PowerLaw(0, 64, 0.5, size, exponent) + PowerLaw(8, 64, 0.4, size, exponent)));
+		for (const int n : {1, 4, 16, 64, 256, 1024})
+		{
+			const Prediction p = pilot.Predict(Fixed(n));
+			// The pilot's text has nine digits.
+			EXPECT_NEAR(p.error / std::sqrt(size * std::pow(n, -exponent)), 1, 1e-6) << n << " samples, exponent " << exponent;
+			EXPECT_DOUBLE_EQ(p.samples_per_pixel, n);
+			EXPECT_DOUBLE_EQ(p.extrapolated, n > 64 ? 1 : 0);
+		}
+		// No power of two: between its neighbours, on the same law.
+		EXPECT_NEAR(pilot.Predict(Fixed(96)).error / std::sqrt(size * std::pow(96, -exponent)), 1, 1e-6);
+	}
+}
+
+TEST(Prediction, LevelsAreErrorsThroughTheDisplaysSlope)
+{
+	// Small enough that the slope is the same over all means.
+	const double size = 1e-8, mean = 0.2;
+	const Pilot pilot(ParsePilot(PowerLaw(0, 64, mean, size, 1.2)));
+	const Prediction p = pilot.Predict(Fixed(16));
+	const double slope = 1.055 / 2.4 * std::pow(mean, 1 / 2.4 - 1);
+	// The sRGB encoding bends by 1 % over these means.
+	EXPECT_NEAR(p.Levels() / (255 * slope * p.error), 1, 0.01);
+}
+
+TEST(Prediction, WhatIsBrighterThanWhiteIsNoError)
+{
+	const Pilot pilot(ParsePilot(BlockText(0, 1, 16, [](int pixel, int k) { return Grey(1.5 + 0.1 * k + 0.01 * pixel, 0.1); })));
+	EXPECT_EQ(pilot.Predict(Fixed(4)).error, 0);
+	EXPECT_EQ(pilot.Predict(Fixed(64)).error, 0);
+}
+
+TEST(Prediction, AdaptiveSamplesAndTheirTime)
+{
+	// One block without variance, 1 us a sample; one with 0.01, 3 us a sample.
+	const double samples = 64.0 * 256;
+	const Pilot pilot(ParsePilot(Flat(0, samples * 1e-6, 256, 0.5, 0) + Flat(8, samples * 3e-6, 256, 0.5, 0.01)));
+	const Prediction p = pilot.Predict({0, 1024, 1e-4, 0.9});
+	// The first stops at the first decision, 16. The second: 64 are too few even for 0.01 < 1e-4 n; at 128 the
+	// upper bound is below too, 0.01 < 1e-4 * 128 * chi2(127, 0.9) / 127 = 1e-4 * 128 * 0.843 = 0.0108.
+	EXPECT_DOUBLE_EQ(p.samples_per_pixel, (16 + 128) / 2.0);
+	EXPECT_NEAR(p.seconds_per_pixel, (16 * 1e-6 + 128 * 3e-6) / 2, 1e-12);
+	// A MIN and a MAX bind.
+	EXPECT_DOUBLE_EQ(pilot.Predict({32, 64, 1e-4, 0.9}).samples_per_pixel, (32 + 64) / 2.0);
+	// Three times the variance: 1e-4 * 3 * 64 * chi2(63, 0.9) / 63 = 0.0148 is enough, half of it is not.
+	EXPECT_DOUBLE_EQ(pilot.Predict({16, 1024, 3e-4, 0.9}).samples_per_pixel, (16 + 64) / 2.0);
+	EXPECT_EQ(SceneText({16, 1024, 2e-4, 0.9}), "blur_samples 16, 1024  variance 0.0002");
+	EXPECT_EQ(SceneText(Fixed(37)), "blur_samples 37  variance 0");
+}
+
+TEST(Prediction, NeighboursVote)
+{
+	// One uncertain pixel in the middle of a calm block draws its neighbours along.
+	const Pilot pilot(ParsePilot(BlockText(0, 1, 64, [](int pixel, int) { return Grey(0.5, pixel == 3 * Side + 3 ? 0.02 : 0); })));
+	const double mean = pilot.Predict({4, 64, 1e-4, 0.9}).samples_per_pixel;
+	// It alone at 64 and the fifteen others inside at 4 would be 7.75.
+	EXPECT_GT(mean, 7.75 + 1);
+	EXPECT_LT(mean, 64);
+}
+
+TEST(Prediction, JackknifeLeavesOutEveryTenth)
+{
+	std::string text;
+	for (int b = 0; b < 20; ++b)
+		text += Flat(8 * b, b % 10 == 3 ? 64 * 16 * 1e-5 : 64 * 16 * 1e-6, 16, 0.5, 0);
+	const Pilot pilot(ParsePilot(text));
+	EXPECT_NEAR(pilot.Predict(Fixed(16), 3, 10).seconds_per_pixel, 16e-6, 1e-12);
+	EXPECT_NEAR(pilot.Predict(Fixed(16)).seconds_per_pixel, 16e-6 * 1.9, 1e-12);
+	// Two outlying blocks of twenty: the spread is neither nothing nor everything.
+	const Spread spread = SpreadOf(pilot, Machine{1e6, 0, 0, 1}, Fixed(16));
+	EXPECT_GT(spread.seconds, 0.2);
+	EXPECT_LT(spread.seconds, 0.8);
+	EXPECT_EQ(SpreadOf(Pilot(ParsePilot(Flat(0, 1, 16, 0.5, 0))), Machine{1e6, 0, 0, 1}, Fixed(16)).error, 0);
+}
+
+TEST(Search, RowsScaleToThePicture)
+{
+	const Pilot pilot(ParsePilot(Flat(0, 64 * 16 * 2e-6, 16, 0.5, 0)));
+	const Row row = MakeRow(pilot, Machine{1e6, 3, 4, 8}, Fixed(10));
+	EXPECT_DOUBLE_EQ(row.rays, 1e7);
+	EXPECT_NEAR(row.cpu, 3 + 20, 1e-9);
+	EXPECT_NEAR(row.wall, 4 + 20.0 / 8, 1e-9);
+}
+
+TEST(Search, AnswersAndTable)
+{
+	const Pilot pilot(ParsePilot(PowerLaw(0, 64, 0.5, 4e-3, 1.5) + PowerLaw(8, 64, 0.3, 4e-3, 1.5)));
+	const std::vector<Row> best = BestRows(pilot, Machine{1e6, 0, 0, 1});
+	ASSERT_GT(best.size(), 5u);
+	for (size_t i = 1; i < best.size(); ++i)
+	{
+		EXPECT_GE(best[i].cpu, best[i - 1].cpu);
+		EXPECT_LT(best[i].predicted.error, best[i - 1].predicted.error);
+	}
+	const Figure error = [](const Row& row) { return row.predicted.error; };
+	const auto row = CheapestBelow(best, error, 0.004);
+	ASSERT_TRUE(row);
+	EXPECT_LE(row->predicted.error, 0.004);
+	EXPECT_FALSE(CheapestBelow(best, error, 1e-9));
+	EXPECT_FALSE(BestWithin(best, best[0].wall / 2));
+	EXPECT_EQ(BestWithin(best, best[2].wall)->predicted.error, best[2].predicted.error);
+
+	const std::vector<Row> rows = TableRows(best, 10);
+	EXPECT_LE(rows.size(), 10u);
+	EXPECT_GE(rows.size(), 4u);
+	for (size_t i = 1; i < rows.size(); ++i)
+		EXPECT_LT(rows[i].predicted.error, rows[i - 1].predicted.error);
+	const size_t stop = StopsPaying(rows, 1.0);
+	ASSERT_LT(stop, rows.size());
+	EXPECT_LE(rows[stop].predicted.Levels(), 1.0);
+	EXPECT_GT(rows[stop - 1].predicted.Levels(), 1.0);
+	EXPECT_EQ(StopsPaying(rows, 1e-9), rows.size());
+}
+
+TEST(Search, APictureWithoutErrorHasOneRow)
+{
+	const std::vector<Row> best = BestRows(Pilot(ParsePilot(Flat(0, 1, 64, 0.5, 0))), Machine{1e6, 0, 0, 1});
+	EXPECT_EQ(TableRows(best, 10).size(), 1u);
+}
+
+TEST(PilotRun, PlanFillsTheTime)
+{
+	// 0.5 us a sample, 10 s on 2 threads: 610 blocks of 1024 samples would fit.
+	PilotPlan plan = PlanPilot(0.5e-6, 2, 10, 300);
+	EXPECT_EQ(plan.blocks, 300);
+	EXPECT_EQ(plan.samples, 1024);
+	// 5 us: 61 blocks of 1024, 122 of 512. 110 are enough.
+	plan = PlanPilot(5e-6, 2, 10, 300);
+	EXPECT_EQ(plan.blocks, 122);
+	EXPECT_EQ(plan.samples, 512);
+	// Slower than anything: the least.
+	plan = PlanPilot(1, 1, 10, 300);
+	EXPECT_EQ(plan.blocks, 24);
+	EXPECT_EQ(plan.samples, 64);
+}
+
+TEST(PilotRun, ReadsPovraysMessages)
+{
+	const RenderLog log = ReadRenderLog(
+		"  Image resolution.....640 by 480 (rows 11 to 20, columns 1 to 640).\n"
+		"  Parse Time:       0 hours  0 minutes  0 seconds (0.001 seconds)\n              using 1 thread(s) with 0.000 CPU-seconds total\n"
+		"  Photon Time:      0 hours  0 minutes  3 seconds (3.000 seconds)\n              using 5 thread(s) with 0.000 CPU-seconds total\n"
+		"  Radiosity Time:   No radiosity\n"
+		"  Trace Time:       0 hours  0 minutes  0 seconds (0.600 seconds)\n              using 4 thread(s) with 1.013 CPU-seconds total\n");
+	EXPECT_EQ(log.width, 640);
+	EXPECT_EQ(log.pixels, 6400);
+	EXPECT_EQ(log.threads, 4);
+	EXPECT_TRUE(log.photons);
+	EXPECT_FALSE(log.radiosity);
+	const std::string errors = ErrorLines("Parser Options\nFile 'bad.pov' line 1: Parse Error: No matching } in 'camera'\nFatal error in parser: Cannot parse input.\nRender failed\n");
+	EXPECT_THAT(errors, HasSubstr("line 1: Parse Error"));
+	EXPECT_THAT(errors, testing::Not(HasSubstr("Parser Options")));
+	EXPECT_THAT(errors, testing::Not(HasSubstr("Render failed")));
+}
+
+TEST(Report, DurationsAndCounts)
+{
+	EXPECT_EQ(DurationText(0.24), "0.2 s");
+	EXPECT_EQ(DurationText(99.94), "99.9 s");
+	EXPECT_EQ(DurationText(119.6), "2 min 00 s");
+	EXPECT_EQ(DurationText(125), "2 min 05 s");
+	EXPECT_EQ(DurationText(7260), "2 h 01 min");
+	EXPECT_EQ(CountText(512), "512");
+	EXPECT_EQ(CountText(1.236e6), "1.24 M");
+	EXPECT_EQ(CountText(2.5e9), "2.5 G");
+}
