@@ -19,7 +19,7 @@ namespace tilt_lens
 {
 
 /// Pixels along the side of a block.
-const int PilotBlockSize = 8;
+const int PilotBlockSize = 16;
 
 /// Name of the environment's variable.
 const char PilotVariable[] = "TILT_LENS_PILOT";

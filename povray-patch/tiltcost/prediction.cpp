@@ -41,7 +41,7 @@ double Chi2(double df, double c)
 std::string SceneText(const Setting& setting)
 {
 	const std::string samples = setting.min > 0 ? fmt::format("blur_samples {}, {}", setting.min, setting.max) : fmt::format("blur_samples {}", setting.max);
-	return samples + fmt::format("  variance {:.9g}", setting.variance);
+	return samples + fmt::format("  variance {:.9g}", setting.variance) + (setting.denoise ? "  tilt_lens { denoise }" : "");
 }
 
 Pilot::Pilot(const std::vector<PilotBlock>& read)
@@ -78,7 +78,7 @@ Pilot::Pixel Pilot::Prepare(const std::vector<PilotLevel>& levels)
 
 	Pixel pixel;
 	for (size_t k = 0; k < levels.size(); ++k)
-		pixel.levels.push_back({tilt_lens::ToUncertainty(levels[k].variance), levels[k].variance,
+		pixel.levels.push_back({{float(levels[k].mean[0]), float(levels[k].mean[1]), float(levels[k].mean[2])}, tilt_lens::ToUncertainty(levels[k].variance), levels[k].variance,
 			{means[LINEAR][k].SquaredDistance(means[LINEAR].back()), means[ENCODED][k].SquaredDistance(means[ENCODED].back())}});
 	for (int scale = 0; scale < SCALES; ++scale)
 	{
@@ -102,9 +102,8 @@ size_t Pilot::Known(int count) const
 
 /// Whether a pixel's whole neighbourhood lies in the block. Near the edge voters are missing who
 /// are there in a render: errors of settings that start with few samples came out a third too large.
-bool Pilot::IsInside(const Block& block, int x, int y)
+bool Pilot::IsInside(const Block& block, int x, int y, int reach)
 {
-	const int reach = tilt_lens::NeighbourReach;
 	// Blocks at the picture's right and bottom edge may be too narrow to have an inside.
 	const bool wide = block.width > 2 * reach, high = block.height > 2 * reach;
 	return (!wide || (x >= reach && x < block.width - reach)) && (!high || (y >= reach && y < block.height - reach));

@@ -28,6 +28,7 @@ struct Setting
 {
 	int min = 0, max = 128;
 	double variance = 0.0001, confidence = 0.9;
+	bool denoise = false;           ///< as tilt_lens { denoise }
 };
 
 /// As to be written into the camera block.
@@ -62,6 +63,10 @@ public:
 	/// Pixels that predictions rest on: those inside blocks, whose neighbours are known.
 	int Pixels() const { return pixel_count; }
 
+	/// RMS error of a setting's picture when it is denoised, by denoising the pilot's blocks: slow.
+	/// Each block is denoised as a picture of its own, so the error is a little too large.
+	double PredictDenoised(const Setting& setting) const;
+
 private:
 	/// The two ways an error is measured in.
 	enum Scale { LINEAR, ENCODED, SCALES };
@@ -69,6 +74,7 @@ private:
 	/// A pixel at a power of two.
 	struct Level
 	{
+		float mean[3];                  ///< linear, not clipped
 		tilt_lens::Uncertainty uncertainty;
 		double variance;                ///< of a sample
 		double off[SCALES];             ///< squared distance from m(N), averaged over the channels
@@ -97,8 +103,9 @@ private:
 
 	static Pixel Prepare(const std::vector<tilt_lens::PilotLevel>& levels);
 	std::vector<size_t> LevelsOf(const Block& block, const std::vector<tilt_lens::SampleLevel>& levels, double variance) const;
-	static bool IsInside(const Block& block, int x, int y);
+	static bool IsInside(const Block& block, int x, int y, int reach = tilt_lens::NeighbourReach);
 	size_t Known(int count) const;
+	double DenoisedError(const Block& block, const std::vector<size_t>& known) const;
 	void AddErrors(const Class& of, int count, Prediction& sum) const;
 
 	std::vector<Block> blocks;

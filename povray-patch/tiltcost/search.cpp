@@ -2,8 +2,11 @@
 
 #include "search.h"
 
+#include "tilt_lens/denoise.h"
+
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 
 namespace tiltcost
 {
@@ -68,6 +71,51 @@ std::vector<Row> BestRows(const Pilot& pilot, const Machine& machine, const std:
 		if (best.empty() || row.predicted.error < best.back().predicted.error)
 			best.push_back(row);
 	return best;
+}
+
+double DenoiseSecondsPerPixel()
+{
+	static const double seconds = []
+	{
+		tilt_lens::NoisyPicture picture;
+		const int size = 160;
+		picture.Resize(size, size);
+		picture.share.assign(picture.share.size(), 0.5f);
+		std::vector<float> denoised[tilt_lens::PictureChannels];
+		for (auto& plane : denoised)
+			plane.assign(picture.share.size(), 0.0f);
+		const std::clock_t start = std::clock();
+		tilt_lens::DenoiseRows(picture, 0, size - 1, denoised);
+		return double(std::clock() - start) / CLOCKS_PER_SEC / (size * size);
+	}();
+	return seconds;
+}
+
+Row WithDenoise(const Pilot& pilot, const Machine& machine, Row row)
+{
+	row.setting.denoise = true;
+	row.denoised_error = pilot.PredictDenoised(row.setting);
+	// By one thread, whatever the others do.
+	row.cpu += DenoiseSecondsPerPixel() * machine.pixels;
+	row.wall += DenoiseSecondsPerPixel() * machine.pixels;
+	return row;
+}
+
+std::optional<Row> CheapestDenoised(const Pilot& pilot, const Machine& machine, const std::vector<Row>& best, double error)
+{
+	// Errors fall along the rows, denoised ones nearly so: halve the interval, then go on to the first that holds.
+	size_t low = 0, high = best.size();
+	while (low < high)
+	{
+		const size_t middle = (low + high) / 2;
+		if (pilot.PredictDenoised(best[middle].setting) <= error)
+			high = middle;
+		else
+			low = middle + 1;
+	}
+	if (low == best.size() || best[low].setting.max > pilot.Samples())
+		return {};
+	return WithDenoise(pilot, machine, best[low]);
 }
 
 std::optional<Row> CheapestBelow(const std::vector<Row>& best, const Figure& figure, double bound)

@@ -29,6 +29,7 @@ struct Row
 	Setting setting;
 	Prediction predicted;
 	double rays = 0, cpu = 0, wall = 0;     ///< of the whole picture, seconds
+	double denoised_error = 0;      ///< RMS, with denoise; 0: not asked for
 };
 
 Row MakeRow(const Pilot& pilot, const Machine& machine, const Setting& setting);
@@ -40,6 +41,15 @@ std::vector<Row> BestRows(const Pilot& pilot, const Machine& machine, const std:
 
 /// A figure that is bounded: error, levels or time.
 typedef std::function<double(const Row&)> Figure;
+
+/// CPU seconds that denoise takes for a pixel, measured here and now.
+double DenoiseSecondsPerPixel();
+
+/// The same row with denoise: its error, and its time with what denoising takes.
+Row WithDenoise(const Pilot& pilot, const Machine& machine, Row row);
+
+/// Cheapest of the rows that with denoise reaches `error`, denoised.
+std::optional<Row> CheapestDenoised(const Pilot& pilot, const Machine& machine, const std::vector<Row>& best, double error);
 
 /// Cheapest row whose `figure` is at most `bound`. `best` as of BestRows.
 std::optional<Row> CheapestBelow(const std::vector<Row>& best, const Figure& figure, double bound);
