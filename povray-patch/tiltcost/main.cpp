@@ -9,6 +9,8 @@
 #include "report.h"
 
 #include <fmt/format.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -107,6 +109,9 @@ void Run(const Options& options)
 
 int main(int argc, char** argv)
 {
+	// Results go to stdout, warnings to stderr.
+	spdlog::set_default_logger(spdlog::stderr_logger_mt("tiltcost"));
+	spdlog::set_pattern("tiltcost: %v");
 	CLI::App app("tiltcost: what accuracy costs in time for a scene with a tilt_lens camera, and which blur_samples and variance\n"
 		"to write into it. Traces a sample of the picture's blocks in a few seconds and predicts the rest.", "tiltcost");
 	try

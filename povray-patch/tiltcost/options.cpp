@@ -168,6 +168,9 @@ Options ParseCommandLine(CLI::App& app, int argc, char** argv)
 		options.stop_levels = Positive("--stop-levels", stop, ParseNumber, "a number of levels such as 0.29");
 	if (!pilot_time.empty())
 		options.job.pilot_seconds = Positive("--pilot-time", pilot_time, ParseDuration, "a time such as 10s");
+	const std::string suffix = std::filesystem::path(options.plot).extension().string();
+	if (!options.plot.empty() && suffix != ".svg" && suffix != ".png")
+		throw CLI::ValidationError("--plot", fmt::format("'{}' ends neither in .svg nor in .png", options.plot));
 	for (const std::string& setting : settings)
 		options.own.push_back(ParseSetting(setting));
 	return options;

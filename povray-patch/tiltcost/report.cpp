@@ -76,7 +76,7 @@ std::string HeaderText(const Report& report)
 		text += fmt::format("Predicted from a part of the picture: errors within {:.0f} %, times within {:.0f} % (one standard deviation).\n",
 			std::ceil(100 * report.spread.error), std::ceil(100 * report.spread.seconds));
 	if (log.radiosity)
-		text += "Radiosity: its pretrace is part of the start; what is gathered while tracing is not predicted well.\n";
+		text += "Radiosity: its pretrace counts as start; what is gathered later depends on where the rays go and is predicted less well.\n";
 	return text;
 }
 
