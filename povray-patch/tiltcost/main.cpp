@@ -9,6 +9,8 @@
 #include "report.h"
 
 #include <fmt/format.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -43,7 +45,7 @@ void CheckFiles(const Options& options)
 }
 
 /// The answer to --time, --error or --levels; nothing where none was asked.
-std::string Answer(const Options& options, const std::vector<Row>& best)
+std::string Answer(const Options& options, const Pilot& pilot, const Machine& machine, const std::vector<Row>& best)
 {
 	const Figure error = [](const Row& row) { return row.predicted.error; };
 	const Figure levels = [](const Row& row) { return row.predicted.Levels(); };
@@ -62,7 +64,13 @@ std::string Answer(const Options& options, const std::vector<Row>& best)
 	}
 	else
 		return {};
-	return AnswerText(*row);
+	// The same bound with denoise: mostly much cheaper, or much better.
+	std::optional<Row> denoised;
+	if (options.error > 0)
+		denoised = CheapestDenoised(pilot, machine, best, options.error);
+	else if (options.time > 0 && row->setting.max <= pilot.Samples())
+		denoised = WithDenoise(pilot, machine, *row);
+	return AnswerText(*row) + (denoised ? AnswerText(*denoised) : "");
 }
 
 void Run(const Options& options)
@@ -92,6 +100,11 @@ void Run(const Options& options)
 	report.rows = TableRows(report.best, 10);
 	for (const Setting& setting : options.own)
 		report.own.push_back(MakeRow(pilot, report.pilot.machine, setting));
+	for (auto* rows : {&report.rows, &report.own})
+		for (Row& row : *rows)
+			if (row.setting.max <= pilot.Samples())
+				row.denoised_error = pilot.PredictDenoised(row.setting);
+	report.denoise_seconds = DenoiseSecondsPerPixel() * report.pilot.machine.pixels;
 	const size_t stop = std::min(StopsPaying(report.rows, options.stop_levels), report.rows.size() - 1);
 	report.spread = SpreadOf(pilot, report.pilot.machine, report.rows[stop].setting);
 
@@ -99,7 +112,7 @@ void Run(const Options& options)
 		tiltcal::WriteText(options.csv, CsvText(report));
 	if (!options.plot.empty())
 		WritePlot(report, options.plot);
-	const std::string answer = Answer(options, report.best);
+	const std::string answer = Answer(options, pilot, report.pilot.machine, report.best);
 	fmt::print("{}", answer.empty() ? HeaderText(report) + "\n" + TableText(report) : answer);
 }
 
@@ -107,6 +120,9 @@ void Run(const Options& options)
 
 int main(int argc, char** argv)
 {
+	// Results go to stdout, warnings to stderr.
+	spdlog::set_default_logger(spdlog::stderr_logger_mt("tiltcost"));
+	spdlog::set_pattern("tiltcost: %v");
 	CLI::App app("tiltcost: what accuracy costs in time for a scene with a tilt_lens camera, and which blur_samples and variance\n"
 		"to write into it. Traces a sample of the picture's blocks in a few seconds and predicts the rest.", "tiltcost");
 	try

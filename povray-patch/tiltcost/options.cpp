@@ -151,7 +151,7 @@ Options ParseCommandLine(CLI::App& app, int argc, char** argv)
 	app.add_option("--plot", options.plot, "write time against error: FILE.svg or FILE.png");
 	app.add_option("--csv", options.csv, "write the table: FILE.csv");
 	app.add_option("--pilot-time", pilot_time, "about how long the pilot render may trace [10s]");
-	app.add_option("--pilot-blocks", options.job.most_blocks, "at most so many blocks of 8 x 8 pixels [300]")->check(CLI::Range(1, 1000000));
+	app.add_option("--pilot-blocks", options.job.most_blocks, "at most so many blocks of 16 x 16 pixels [120]")->check(CLI::Range(1, 1000000));
 	app.add_option("--povray", options.job.povray, "POV-Ray with tilt_lens [the povray beside tiltcost]");
 
 	// CLI11 takes them from the back.
@@ -168,6 +168,9 @@ Options ParseCommandLine(CLI::App& app, int argc, char** argv)
 		options.stop_levels = Positive("--stop-levels", stop, ParseNumber, "a number of levels such as 0.29");
 	if (!pilot_time.empty())
 		options.job.pilot_seconds = Positive("--pilot-time", pilot_time, ParseDuration, "a time such as 10s");
+	const std::string suffix = std::filesystem::path(options.plot).extension().string();
+	if (!options.plot.empty() && suffix != ".svg" && suffix != ".png")
+		throw CLI::ValidationError("--plot", fmt::format("'{}' ends neither in .svg nor in .png", options.plot));
 	for (const std::string& setting : settings)
 		options.own.push_back(ParseSetting(setting));
 	return options;

@@ -22,7 +22,7 @@ namespace
 {
 
 /// Few samples, so that slow scenes do not keep their user waiting before anything is known.
-const PilotPlan TinyPilot = {24, 16};
+const PilotPlan TinyPilot = {12, 16};
 
 std::string Contents(const std::string& file)
 {
@@ -151,14 +151,14 @@ PilotPlan PlanPilot(double seconds_per_sample, int threads, double seconds, int 
 {
 	const int pixels = tilt_lens::PilotBlockSize * tilt_lens::PilotBlockSize;
 	// Samples, and the blocks below which it is better to halve them.
-	const PilotPlan enough[] = {{150, 1024}, {110, 512}, {80, 256}, {60, 128}, {24, 64}};
+	const PilotPlan enough[] = {{60, 1024}, {48, 512}, {36, 256}, {28, 128}, {12, 64}};
 	for (const PilotPlan& plan : enough)
 	{
 		const double affordable = seconds * threads / std::max(1e-12, seconds_per_sample * pixels * plan.samples);
 		if (affordable >= std::min(plan.blocks, most_blocks))
 			return {int(std::min<double>(affordable, most_blocks)), plan.samples};
 	}
-	return {std::min(24, most_blocks), 64};
+	return {std::min(12, most_blocks), 64};
 }
 
 PilotRun RunPilots(const Job& job, const TemporaryFolder& folder)

@@ -23,7 +23,7 @@ struct Job
 	std::string scene;                  ///< .pov or .ini, as POV-Ray is to see it
 	std::vector<std::string> options;   ///< POV-Ray's own
 	double pilot_seconds = 10;          ///< wall time for the larger pilot's samples
-	int most_blocks = 300;
+	int most_blocks = 120;
 };
 
 struct PilotPlan

@@ -19,8 +19,9 @@ const double MuchExtrapolated = 0.5;
 std::string RowText(const Row& row, char mark)
 {
 	const Prediction& p = row.predicted;
-	return fmt::format("{} {:>9.5f}{}  {:>7.2f}  {:>8.1f}  {:>8}  {:>12}  {:>12}  {}\n", mark, p.error, p.extrapolated > MuchExtrapolated ? '~' : ' ',
-		p.Levels(), p.samples_per_pixel, CountText(row.rays), DurationText(row.cpu), DurationText(row.wall), SceneText(row.setting));
+	const std::string denoised = row.denoised_error > 0 ? fmt::format("{:.5f}", row.denoised_error) : "-";
+	return fmt::format("{} {:>9.5f}{}  {:>7.2f}  {:>8}  {:>8.1f}  {:>8}  {:>12}  {:>12}  {}\n", mark, p.error, p.extrapolated > MuchExtrapolated ? '~' : ' ',
+		p.Levels(), denoised, p.samples_per_pixel, CountText(row.rays), DurationText(row.cpu), DurationText(row.wall), SceneText(row.setting));
 }
 
 std::string Quoted(const std::string& text)
@@ -70,20 +71,21 @@ std::string HeaderText(const Report& report)
 	std::string text = fmt::format("{}: {} x {} pixels{}, {} thread{}\n", report.scene, log.width, log.height,
 		log.pixels < double(log.width) * log.height ? fmt::format(" ({} of them rendered)", CountText(log.pixels)) : "",
 		machine.threads, machine.threads > 1 ? "s" : "");
-	text += fmt::format("Pilot: {} blocks of 8 x 8 pixels, {} samples each, in {}. Before the first ray: {} ({} CPU).\n", report.blocks, report.samples,
+	text += fmt::format("Pilot: {} blocks of {} x {} pixels, {} samples each, in {}. Before the first ray: {} ({} CPU).\n", report.blocks, tilt_lens::PilotBlockSize,
+		tilt_lens::PilotBlockSize, report.samples,
 		DurationText(report.pilot.wall), DurationText(machine.start_wall), DurationText(machine.start_cpu));
 	if (report.spread.error > 0 || report.spread.seconds > 0)
 		text += fmt::format("Predicted from a part of the picture: errors within {:.0f} %, times within {:.0f} % (one standard deviation).\n",
 			std::ceil(100 * report.spread.error), std::ceil(100 * report.spread.seconds));
 	if (log.radiosity)
-		text += "Radiosity: its pretrace is part of the start; what is gathered while tracing is not predicted well.\n";
+		text += "Radiosity: its pretrace counts as start; what is gathered later depends on where the rays go and is predicted less well.\n";
 	return text;
 }
 
 std::string TableText(const Report& report)
 {
-	std::string text = "  RMS error     8-bit      rays      rays      CPU time  render time  to write into the camera block\n"
-		"    (of 1)     levels  per pixel     in all\n";
+	std::string text = "  RMS error     8-bit  with de-      rays      rays      CPU time  render time  to write into the camera block\n"
+		"    (of 1)     levels  noise      per pixel    in all\n";
 	const size_t stop = StopsPaying(report.rows, report.stop_levels);
 	bool extrapolated = false;
 	for (size_t i = 0; i < report.rows.size(); ++i)
@@ -99,6 +101,7 @@ std::string TableText(const Report& report)
 	text += StopText(report, stop);
 	if (!report.own.empty())
 		text += "= The settings that --setting names.\n";
+	text += fmt::format("With denoise: the RMS error when tilt_lens {{ denoise }} is written too; takes {} more.\n", DurationText(report.denoise_seconds));
 	if (extrapolated)
 		text += fmt::format("~ Extrapolated beyond the pilot's {} samples.\n", report.samples);
 	return text;
@@ -106,6 +109,9 @@ std::string TableText(const Report& report)
 
 std::string AnswerText(const Row& row)
 {
+	if (row.denoised_error > 0)
+		return fmt::format("{}\n  RMS error {:.5f}; {} rays, {:.1f} per pixel; {} ({} CPU)\n", SceneText(row.setting), row.denoised_error,
+			CountText(row.rays), row.predicted.samples_per_pixel, DurationText(row.wall), DurationText(row.cpu));
 	return fmt::format("{}\n", SceneText(row.setting)) + fmt::format("  RMS error {:.5f}{}, {:.2f} 8-bit levels; {} rays, {:.1f} per pixel; {} ({} CPU)\n", row.predicted.error,
 		row.predicted.extrapolated > MuchExtrapolated ? " (extrapolated)" : "", row.predicted.Levels(), CountText(row.rays),
 		row.predicted.samples_per_pixel, DurationText(row.wall), DurationText(row.cpu));
@@ -113,12 +119,12 @@ std::string AnswerText(const Row& row)
 
 std::string CsvText(const Report& report)
 {
-	std::string text = "scene,kind,rms_error,levels_8bit,rays,rays_per_pixel,cpu_s,wall_s,min,max,variance,confidence,extrapolated\n";
+	std::string text = "scene,kind,rms_error,levels_8bit,denoised_rms_error,rays,rays_per_pixel,cpu_s,wall_s,min,max,variance,confidence,extrapolated\n";
 	const size_t stop = StopsPaying(report.rows, report.stop_levels);
 	const auto add = [&](const Row& row, const char* kind)
 	{
 		const Prediction& p = row.predicted;
-		text += fmt::format("{},{},{:.6g},{:.4g},{:.6g},{:.5g},{:.5g},{:.5g},{},{},{:.9g},{:.9g},{:.3g}\n", Quoted(report.scene), kind, p.error, p.Levels(), row.rays,
+		text += fmt::format("{},{},{:.6g},{:.4g},{:.6g},{:.6g},{:.5g},{:.5g},{:.5g},{},{},{:.9g},{:.9g},{:.3g}\n", Quoted(report.scene), kind, p.error, p.Levels(), row.denoised_error, row.rays,
 			p.samples_per_pixel, row.cpu, row.wall, row.setting.min, row.setting.max, row.setting.variance, row.setting.confidence, p.extrapolated);
 	};
 	for (size_t i = 0; i < report.rows.size(); ++i)

@@ -137,7 +137,7 @@ std::optional<Row> BestWithin(const std::vector<Row>& best, double seconds)
 
 std::vector<Row> TableRows(const std::vector<Row>& best, int count)
 {
-	const double coarsest = 0.03, step = 1.5, finest = 1e-6;
+	const double coarsest = 0.03, step = 1.5, closest = 1.2, finest = 1e-6;
 	// Time grows about so steeply as errors fall. What is best by it lies at the foot of a
 	// step (a MAX is exhausted, the next is not begun) and not on top.
 	const double steepness = 1.5;
@@ -150,8 +150,16 @@ std::vector<Row> TableRows(const std::vector<Row>& best, int count)
 		for (const Row& row : best)
 			if (row.predicted.error <= wanted * std::sqrt(step) && row.predicted.error > wanted / std::sqrt(step) && (!chosen || worth(row) < worth(*chosen)))
 				chosen = &row;
-		if (chosen)
-			rows.push_back(*chosen);
+		if (!chosen)
+			continue;
+		// Two that are hardly apart count as one.
+		if (!rows.empty() && chosen->predicted.error * closest > rows.back().predicted.error)
+		{
+			if (worth(*chosen) < worth(rows.back()))
+				rows.back() = *chosen;
+			continue;
+		}
+		rows.push_back(*chosen);
 	}
 	if (rows.empty())
 		rows.push_back(best.front());

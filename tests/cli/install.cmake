@@ -18,4 +18,8 @@ execute_process(COMMAND "${prefix}/bin/tiltcal" --version OUTPUT_VARIABLE versio
 if(NOT version MATCHES "tiltcal [0-9]+\\.[0-9]+")
 	message(FATAL_ERROR "tiltcal --version printed: ${version}")
 endif()
+execute_process(COMMAND "${prefix}/bin/tiltcost" --version OUTPUT_VARIABLE version COMMAND_ERROR_IS_FATAL ANY)
+if(NOT version MATCHES "tiltcost [0-9]+\\.[0-9]+")
+	message(FATAL_ERROR "tiltcost --version printed: ${version}")
+endif()
 file(REMOVE_RECURSE "${WORK}")

@@ -42,7 +42,8 @@ bad_option) scene s.pov "$lens"; refuses 2 frobnicate s.pov --frobnicate ;;
 bad_values)
 	scene s.pov "$lens"
 	refuses 2 "60s" s.pov --time 3x; refuses 2 "1/255" s.pov --error 0; refuses 2 excludes s.pov --time 3s --error 0.1
-	refuses 2 MIN,MAX s.pov --setting 16,256; refuses 2 MIN,MAX s.pov --setting 32,16,0.1 ;;
+	refuses 2 MIN,MAX s.pov --setting 16,256; refuses 2 MIN,MAX s.pov --setting 32,16,0.1
+	refuses 2 ".svg" s.pov --plot plot.gif ;;
 no_povray) scene s.pov "$lens"; povray=./nowhere; refuses 3 "nowhere: no such program" s.pov ;;
 unwritable)
 	scene s.pov "$lens"; : >blocked

@@ -46,7 +46,7 @@ std::string Flat(int left, double seconds, int samples, double mean, double vari
 	return BlockText(left, seconds, samples, [=](int, int) { return Grey(mean, variance); });
 }
 
-/// Number among the 16 pixels inside a block of 8 x 8, whose neighbours all lie in it too.
+/// Number among the 16 pixels by which pixels inside a block are told apart, whose neighbours all lie in it too.
 int InsideNumber(int pixel)
 {
 	return (pixel % Side - 2 + 4) % 4 + 4 * ((pixel / Side - 2 + 4) % 4);
@@ -86,11 +86,11 @@ TEST(PilotFile, WholeBlocksAreReadAndTheCutOneLeftOut)
 	const auto blocks = ParsePilot(whole + next + Flat(16, 1, 4, 0, 0).substr(0, 700));
 	ASSERT_EQ(blocks.size(), 2u);
 	EXPECT_EQ(blocks[1].left, 8);
-	EXPECT_EQ(blocks[1].pixels.size(), 64u);
-	EXPECT_EQ(blocks[1].pixels[63].back().samples, 4);
-	EXPECT_DOUBLE_EQ(blocks[1].pixels[63].back().variance, 0.2);
+	EXPECT_EQ(blocks[1].pixels.size(), size_t(Side * Side));
+	EXPECT_EQ(blocks[1].pixels.back().back().samples, 4);
+	EXPECT_DOUBLE_EQ(blocks[1].pixels.back().back().variance, 0.2);
 	EXPECT_DOUBLE_EQ(TraceSeconds(blocks), 0.75);
-	EXPECT_DOUBLE_EQ(SecondsPerSample(blocks), 0.75 / (2 * 64 * 4));
+	EXPECT_DOUBLE_EQ(SecondsPerSample(blocks), 0.75 / (2 * Side * Side * 4));
 	// Cut in the last number of a pixel: what is left of it would be read as another number.
 	EXPECT_EQ(ParsePilot(whole.substr(0, whole.size() - 2)).size(), 0u);
 	EXPECT_TRUE(ParsePilot("").empty());
@@ -247,17 +247,17 @@ TEST(Search, APictureWithoutErrorHasOneRow)
 
 TEST(PilotRun, PlanFillsTheTime)
 {
-	// 0.5 us a sample, 10 s on 2 threads: 610 blocks of 1024 samples would fit.
-	PilotPlan plan = PlanPilot(0.5e-6, 2, 10, 300);
-	EXPECT_EQ(plan.blocks, 300);
+	// Blocks of 16 x 16. 0.5 us a sample, 10 s on 2 threads: 152 blocks of 1024 samples would fit.
+	PilotPlan plan = PlanPilot(0.5e-6, 2, 10, 120);
+	EXPECT_EQ(plan.blocks, 120);
 	EXPECT_EQ(plan.samples, 1024);
-	// 5 us: 61 blocks of 1024, 122 of 512. 110 are enough.
-	plan = PlanPilot(5e-6, 2, 10, 300);
-	EXPECT_EQ(plan.blocks, 122);
+	// 3 us: 25 blocks of 1024, 50 of 512. 48 are enough.
+	plan = PlanPilot(3e-6, 2, 10, 120);
+	EXPECT_EQ(plan.blocks, 50);
 	EXPECT_EQ(plan.samples, 512);
 	// Slower than anything: the least.
-	plan = PlanPilot(1, 1, 10, 300);
-	EXPECT_EQ(plan.blocks, 24);
+	plan = PlanPilot(1, 1, 10, 120);
+	EXPECT_EQ(plan.blocks, 12);
 	EXPECT_EQ(plan.samples, 64);
 }
 
