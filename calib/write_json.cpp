@@ -96,7 +96,14 @@ Json SolutionJson(const Calibration& c, const Solution& solution, const Geometry
 	json["distortion_terms"] = g.distortion_terms;
 	json["distortion_axis"] = "lens axis";
 	json["shared_poses"] = g.shared_poses;
-	Put(json, "field_curvature", "_per_mm", {});
+	Put(json, "field_curvature", "_per_mm", solution.field_curvature);
+	if (solution.model == "curved")
+	{
+		Put(json, "tangential_curvature", "_per_mm", solution.tangential_curvature);
+		Put(json, "sagittal_curvature", "_per_mm", solution.sagittal_curvature);
+	}
+	if (solution.held_out_px > 0)
+		json["held_out_blur_px"] = solution.held_out_px;
 	Put(json, "psf_floor", "_px", solution.psf_floor_px);
 	json["rms_reprojection_px"] = g.rms;
 	json["rms_blur_px"] = solution.rms_blur;
