@@ -102,8 +102,6 @@ Json SolutionJson(const Calibration& c, const Solution& solution, const Geometry
 		Put(json, "tangential_curvature", "_per_mm", solution.tangential_curvature);
 		Put(json, "sagittal_curvature", "_per_mm", solution.sagittal_curvature);
 	}
-	if (solution.held_out_px > 0)
-		json["held_out_blur_px"] = solution.held_out_px;
 	Put(json, "psf_floor", "_px", solution.psf_floor_px);
 	json["rms_reprojection_px"] = g.rms;
 	json["rms_blur_px"] = solution.rms_blur;
@@ -127,6 +125,11 @@ std::string CalibrationJson(const Calibration& c)
 		json["comparison"]["paper"] = SolutionJson(c, c.paper, c.paper_geometry);
 	else
 		json["comparison"]["paper"] = { { "failure", c.paper.failure } };
+	for (const Solution& s : c.compared)
+	{
+		Json& entry = json["held_out_blur_px"][s.model];
+		entry = s.failure.empty() && s.held_out_px > 0 ? Json(s.held_out_px) : Json();
+	}
 	json["render"] = SolutionJson(c, c.render, RenderGeometry(c));
 	json["render"]["note"] = "the camera without distortion that the .inc files hold unless TiltCal_Distortion is set";
 	json["program"] = "tiltcal " TILTCAL_VERSION;
