@@ -3,6 +3,7 @@
 #include "blur_fit.h"
 
 #include "error.h"
+#include "footprint.h"
 #include "solve_geometry.h"
 
 #include <ceres/ceres.h>
@@ -19,22 +20,22 @@ namespace
 struct BlurCost
 {
 	LensModel model;
-	Vec3<double> P;
-	double blur, weight, w_px, w_mm;
+	const Observation& o;
+	double weight, w_mm;
 
 	template<typename T>
-	bool operator()(const T* d, const T* floor_squared, const T* power, const T* state, T* residual) const
+	bool operator()(const T* d, const T* floor_squared, const T* power, const T* curvature, const T* state, T* residual) const
 	{
 		using std::sqrt;
 		const Vec3<T> q = PlaneOfState(model, power, state, w_mm);
-		const T b = tilt_lens::SignedBlurWidth(T(w_px), *d, q, Vec3<T>{ T(P.x), T(P.y), T(P.z) });
+		const Vec3<T> n = tilt_lens::LensFromPlane(q, T(1 / w_mm)).normal;
 		// The tiny constant keeps the root smooth where blur and floor both vanish.
-		residual[0] = weight * (sqrt(b * b + *floor_squared + T(1e-6)) - blur);
+		residual[0] = weight * (sqrt(SquaredFootprintWidth(*d, q, n, curvature, o.P, o.gradient) + *floor_squared + T(1e-6)) - o.blur);
 		return true;
 	}
 };
 
-using BlurCostFunction = ceres::AutoDiffCostFunction<BlurCost, 1, 1, 1, 1, 3>;
+using BlurCostFunction = ceres::AutoDiffCostFunction<BlurCost, 1, 1, 1, 1, 2, 3>;
 
 /// Holds what the model does not have, and what the untilted state keeps at 0.
 void HoldUnused(LensModel model, size_t state, Unknowns& x, ceres::Problem& problem)
@@ -42,7 +43,7 @@ void HoldUnused(LensModel model, size_t state, Unknowns& x, ceres::Problem& prob
 	double* const own = x.state[state].data();
 	if (!problem.HasParameterBlock(own))
 		return;
-	if (model == LensModel::PLANE && state == 0)
+	if (HasFreePlanes(model) && state == 0)
 		problem.SetManifold(own, new ceres::SubsetManifold(3, { 0, 1 }));
 	if (model == LensModel::RIGID && state == 0)
 		problem.SetParameterBlockConstant(own);
@@ -57,14 +58,18 @@ void Build(const BlurFit& fit, ceres::Problem& problem, Unknowns& x, Free free, 
 		if (free != Free::EVERYTHING && o.state != state)
 			continue;
 		const double weight = 1 / std::hypot(o.sigma, fit.model_sigma);
-		problem.AddResidualBlock(new BlurCostFunction(new BlurCost{ fit.model, o.P, o.blur, weight, fit.w_px, fit.w_mm }),
-			new ceres::HuberLoss(2.0), &x.d, &x.floor_squared, &x.power, x.state[o.state].data());
+		problem.AddResidualBlock(new BlurCostFunction(new BlurCost{ fit.model, o, weight, fit.w_mm }),
+			new ceres::HuberLoss(2.0), &x.d, &x.floor_squared, &x.power, x.curvature.data(), x.state[o.state].data());
 	}
 	problem.SetParameterLowerBound(&x.floor_squared, 0, 0);
 	for (size_t s = 0; s < x.state.size(); ++s)
 		HoldUnused(fit.model, s, x, problem);
-	if (fit.model == LensModel::PLANE || free == Free::ONE_STATE)
+	if (HasFreePlanes(fit.model) || free == Free::ONE_STATE)
 		problem.SetParameterBlockConstant(&x.power);
+	if (!IsCurved(fit.model) || free != Free::EVERYTHING)
+		problem.SetParameterBlockConstant(x.curvature.data());
+	else if (fit.model == LensModel::BOWL)
+		problem.SetManifold(x.curvature.data(), new ceres::SubsetManifold(2, { 1 }));
 	if (free == Free::ONE_STATE)
 	{
 		problem.SetParameterBlockConstant(&x.d);
@@ -72,13 +77,13 @@ void Build(const BlurFit& fit, ceres::Problem& problem, Unknowns& x, Free free, 
 	}
 }
 
-/// d(d, floor^2, q of every state) / d(all unknowns), by automatic derivatives.
+/// d(d, floor^2, curvature, q of every state) / d(all unknowns), by automatic derivatives.
 Eigen::MatrixXd PlanesByUnknowns(const BlurFit& fit, const Unknowns& x)
 {
 	using Jet = ceres::Jet<double, 4>;
 	const int states = int(x.state.size());
-	Eigen::MatrixXd J = Eigen::MatrixXd::Zero(2 + 3 * states, 3 + 3 * states);
-	J(0, 0) = J(1, 1) = 1;
+	Eigen::MatrixXd J = Eigen::MatrixXd::Zero(4 + 3 * states, 5 + 3 * states);
+	J(0, 0) = J(1, 1) = J(2, 3) = J(3, 4) = 1;
 	for (int s = 0; s < states; ++s)
 	{
 		const StateNumbers& own = x.state[size_t(s)];
@@ -87,8 +92,8 @@ Eigen::MatrixXd PlanesByUnknowns(const BlurFit& fit, const Unknowns& x)
 		const Jet* const rows[] = { &q.x, &q.y, &q.z };
 		for (int r = 0; r < 3; ++r)
 		{
-			J(2 + 3 * s + r, 2) = rows[r]->v[0];
-			J.block<1, 3>(2 + 3 * s + r, 3 + 3 * s) = rows[r]->v.tail<3>().transpose();
+			J(4 + 3 * s + r, 2) = rows[r]->v[0];
+			J.block<1, 3>(4 + 3 * s + r, 5 + 3 * s) = rows[r]->v.tail<3>().transpose();
 		}
 	}
 	return J;
@@ -102,14 +107,17 @@ std::vector<Observation> Observe(const Task& task, const Geometry& g)
 	for (size_t s = 0; s < task.states.size(); ++s)
 		for (size_t p = 0; p < task.states[s].photos.size(); ++p)
 			for (const Edge& e : task.states[s].photos[p].edges)
-				all.push_back({ s, EdgeInCamera(task, g.poses[s][p], e), e.blur, e.blur_sigma });
+			{
+				const Vec3<double> P = EdgeInCamera(task, g.poses[s][p], e);
+				all.push_back({ s, p, P, EdgeGradient(g, s, P, e), e.blur, e.blur_sigma });
+			}
 	return all;
 }
 
 double BlurFit::Residual(const Observation& o, const Unknowns& x) const
 {
 	double r = 0;
-	BlurCost{ model, o.P, o.blur, 1, w_px, w_mm }(&x.d, &x.floor_squared, &x.power, x.state[o.state].data(), &r);
+	BlurCost{ model, o, 1, w_mm }(&x.d, &x.floor_squared, &x.power, x.curvature.data(), x.state[o.state].data(), &r);
 	return r;
 }
 
@@ -152,12 +160,12 @@ Eigen::MatrixXd BlurFit::CovarianceOfPlanes(Unknowns x) const
 	options.algorithm_type = ceres::DENSE_SVD;
 	options.min_reciprocal_condition_number = 1e-22;
 	ceres::Covariance covariance(options);
-	std::vector<const double*> blocks{ &x.d, &x.floor_squared, &x.power };
+	std::vector<const double*> blocks{ &x.d, &x.floor_squared, &x.power, x.curvature.data() };
 	for (StateNumbers& state : x.state)
 		blocks.push_back(state.data());
 	if (!covariance.Compute(blocks, &problem))
 		throw Refused("the blur does not determine the lens: photograph inclined boards whose blur differs clearly from one end to the other");
-	const int n = 3 + 3 * int(x.state.size());
+	const int n = 5 + 3 * int(x.state.size());
 	Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> c(n, n);
 	covariance.GetCovarianceMatrix(blocks, c.data());
 	int free_unknowns = 0;

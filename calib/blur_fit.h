@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 //
-// The least squares of the exact models: measured blur widths against b = w d |1 - q.P| / z.
+// The least squares of the exact models: measured blur widths against the footprint of the lens (footprint.h).
 
 #ifndef TILTCAL_BLUR_FIT_H
 #define TILTCAL_BLUR_FIT_H
@@ -18,8 +18,9 @@ namespace tiltcal
 /// One measured edge.
 struct Observation
 {
-	size_t state;
+	size_t state, photo;
 	Vec3<double> P;       // camera frame, mm
+	Vec3<double> gradient;   // footprint.h, px/mm
 	double blur, sigma;   // px
 };
 
@@ -31,6 +32,7 @@ struct Unknowns
 	double d = 0;              // mm
 	double floor_squared = 1;  // px^2; squared, because the blur does not change with floor at 0
 	double power = 0;          // 1/f, 1/mm; RIGID only
+	std::array<double, 2> curvature{ 0, 0 };   // footprint.h, 1/mm; BOWL: the first, BOWLS: both
 	std::vector<StateNumbers> state;
 };
 
@@ -39,14 +41,14 @@ enum class Free
 {
 	UNTILTED,    ///< d, floor and the untilted state, on its edges
 	ONE_STATE,   ///< one tilted state's own numbers, on its edges
-	EVERYTHING
+	EVERYTHING   ///< field curvature too, which the others hold
 };
 
 struct BlurFit
 {
 	LensModel model;
 	const std::vector<Observation>& observations;
-	double w_px, w_mm;
+	double w_mm;
 	double model_sigma;    ///< px: what the model leaves out, common to all edges
 
 	/// Predicted minus measured, px.
@@ -61,8 +63,8 @@ struct BlurFit
 	/// Standard deviation of the residuals, robust: 1.4826 median |residual|, px.
 	double Scale(const Unknowns& x) const;
 
-	/// Covariance of d, floor^2 and q of every state, in that order, rescaled by the
-	/// residuals; w is held. Throws Refused when the fit is singular.
+	/// Covariance of d, floor^2, the two of `curvature` and q of every state, in that order, rescaled by
+	/// the residuals; w is held. Throws Refused when the fit is singular.
 	Eigen::MatrixXd CovarianceOfPlanes(Unknowns x) const;
 };
 

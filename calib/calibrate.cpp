@@ -111,8 +111,8 @@ bool PosesAreShared(const Task& task, const std::vector<Vec3<double>>& normals, 
 /// in turn: the lens moves the distortion's axis, the geometry hardly moves the lens.
 void SolveExact(const Task& task, const std::string& model, Poses poses, Calibration& c)
 {
-	const auto solve = model == "rigid" ? SolveRigid : SolvePlane;
-	spdlog::info("solving geometry and lens ({})", model);
+	auto solve = model == "rigid" ? SolveRigid : model == "curved" ? SolveCurved : SolvePlane;
+	spdlog::info("solving geometry and lens ({})", model == "auto" ? "plane" : model);
 	c.geometry = SelectGeometry(task, {});
 	c.solution = solve(task, c.geometry);
 	GeometryOptions options{ 0, LensNormals(c.solution), false };
@@ -122,6 +122,23 @@ void SolveExact(const Task& task, const std::string& model, Poses poses, Calibra
 		c.geometry = SelectGeometry(task, options);
 		c.solution = solve(task, c.geometry);
 		options.lens_normal = LensNormals(c.solution);
+	}
+	if (model == "auto")
+	{
+		spdlog::info("comparing models");
+		c.compared = CompareExact(task, c.geometry);
+		const Solution& plane = c.compared[1];
+		const Solution& curved = c.compared[2];
+		if (CurvatureIsSeen(plane, curved))
+		{
+			solve = SolveCurved;
+			options.lens_normal = LensNormals(curved);
+			c.geometry = SelectGeometry(task, options);
+			c.solution = solve(task, c.geometry);
+		}
+		else
+			c.solution = plane;
+		spdlog::info("model {}: photographs left out are foretold to {:.3f} px by plane, {:.3f} px by curved", c.solution.model, plane.held_out_px, curved.held_out_px);
 	}
 	c.pinhole = SolveGeometry(task, { 0, {}, options.shared_poses });
 	c.render = c.geometry.distortion_terms ? solve(task, c.pinhole) : c.solution;

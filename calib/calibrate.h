@@ -34,7 +34,8 @@ enum class Poses
 	OWN
 };
 
-/// Solves everything. `model` is "plane", "rigid" or "paper"; the paper's model is always solved
+/// Solves everything. `model` is "plane", "rigid", "curved", "paper", or "auto": curved where CurvatureIsSeen,
+/// else plane. The paper's model is always solved
 /// too, and only refused when it was the one asked for. Throws Refused.
 Calibration Calibrate(const Task& task, const std::string& model, Poses poses);
 

@@ -71,6 +71,9 @@ struct Solution
 	Estimate w_mm, aperture_diameter, focus_distance, focal_length, psf_floor_px;
 	std::vector<StateLens> states;
 	double rms_blur = 0;
+	Estimate field_curvature;             ///< C, 1/mm; the mean of the two below
+	Estimate tangential_curvature, sagittal_curvature;
+	double held_out_px = 0;  ///< held_out.h; 0 when it was not asked for or cannot be had
 	std::string failure;     ///< why there is no answer; empty when there is one
 };
 
@@ -81,6 +84,7 @@ struct Calibration
 	Geometry pinhole;            ///< without distortion, for a renderer that has none
 	Solution solution;           ///< of the model asked for, with `geometry`
 	Solution render;             ///< the same model with `pinhole`: the numbers of the .inc
+	std::vector<Solution> compared;   ///< CompareExact's, when the model was to be chosen; else empty
 	Solution paper;              ///< the paper's model, always
 	Geometry paper_geometry;     ///< poses of the paper's stage 1
 };

@@ -23,7 +23,7 @@ namespace
 
 struct Options
 {
-	std::string board, transfer = "srgb", model = "plane", poses = "auto", out;
+	std::string board, transfer = "srgb", model = "auto", poses = "auto", out;
 	double square = 0, pitch = 0;
 	std::vector<std::string> untilted, tilted;
 	DetectOptions detect;
@@ -61,10 +61,8 @@ std::vector<StateFiles> States(const Options& o)
 
 void CheckModel(const std::string& model)
 {
-	if (model == "curved")
-		throw UsageError(fmt::format("--model {}: not built into this version; it has plane, rigid and paper", model));
-	if (model != "plane" && model != "rigid" && model != "paper")
-		throw UsageError(fmt::format("--model {}: there is plane (exact), rigid (exact, ideal mount) and paper", model));
+	if (model != "auto" && model != "curved" && model != "plane" && model != "rigid" && model != "paper")
+		throw UsageError(fmt::format("--model {}: there is auto, curved (exact, with field curvature), plane (exact), rigid (exact, ideal mount) and paper", model));
 }
 
 Poses ParsePoses(const std::string& text)
@@ -110,7 +108,8 @@ void AddCalibrate(CLI::App& app)
 	c->add_option("--pitch", o->pitch, "Distance of pixel centres on the sensor, mm")->required();
 	c->add_option("--untilted", o->untilted, "Photographs with the lens untilted: names or quoted patterns")->required();
 	c->add_option("--tilted", o->tilted, "NAME='GLOB': photographs of one tilted state; may be repeated");
-	c->add_option("--model", o->model, "plane: exact, free plane of focus per state; rigid: exact, the lens only turns and keeps f and w; "
+	c->add_option("--model", o->model, "auto: curved where photographs left out show field curvature, else plane; curved: plane and a common field curvature; "
+		"plane: exact, free plane of focus per state; rigid: exact, the lens only turns and keeps f and w; "
 		"paper: Baba, Nakane, Hiura (3), (4), (1)")->capture_default_str();
 	c->add_option("--transfer", o->transfer, "Transfer curve of 8 and 16 bit pictures: srgb, linear or a gamma; OpenEXR is linear")->capture_default_str();
 	c->add_option("--poses", o->poses, "shared: photograph n shows the board in one pose in every state; own: not; auto: see for itself")->capture_default_str();

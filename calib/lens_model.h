@@ -18,10 +18,16 @@ using tilt_lens::Vec3;
 enum class LensModel
 {
 	PLANE,   ///< q itself, free in every tilted state
+	BOWL,    ///< as PLANE, and the common field curvature C
+	BOWLS,   ///< as PLANE, and a tangential and a sagittal field curvature
 	RIGID    ///< the lens turns about its centre and keeps f and w: q = n/f - e_z/w
 };
 
-/// A state's own numbers. PLANE: q, 1/mm. RIGID: n_x/n_z, n_y/n_z of the lens normal n, and
+/// q is free in every tilted state, not tied to the others by f and w.
+inline bool HasFreePlanes(LensModel model) { return model != LensModel::RIGID; }
+inline bool IsCurved(LensModel model) { return model == LensModel::BOWL || model == LensModel::BOWLS; }
+
+/// A state's own numbers. With free planes: q, 1/mm; of a bowl, the plane that touches it on the lens axis. RIGID: n_x/n_z, n_y/n_z of the lens normal n, and
 /// an unused 0; both are 0 without tilt, so nothing is singular there.
 using StateNumbers = std::array<double, 3>;
 
@@ -29,7 +35,7 @@ using StateNumbers = std::array<double, 3>;
 template<typename T>
 inline Vec3<T> PlaneOfState(LensModel model, const T* power, const T* state, double w_mm)
 {
-	if (model == LensModel::PLANE)
+	if (HasFreePlanes(model))
 		return { state[0], state[1], state[2] };
 	return tilt_lens::PlaneFromLens(tilt_lens::Normalized(Vec3<T>{ state[0], state[1], T(1) }), *power, T(1 / w_mm));
 }
@@ -37,7 +43,7 @@ inline Vec3<T> PlaneOfState(LensModel model, const T* power, const T* state, dou
 /// The numbers of the state whose plane of focus is q; RIGID keeps only q's lens normal.
 inline StateNumbers StateOfPlane(LensModel model, const Vec3<double>& q, double w_mm)
 {
-	if (model == LensModel::PLANE)
+	if (HasFreePlanes(model))
 		return { q.x, q.y, q.z };
 	const Vec3<double> n = tilt_lens::LensFromPlane(q, 1 / w_mm).normal;
 	return { n.x / n.z, n.y / n.z, 0 };

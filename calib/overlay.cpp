@@ -4,6 +4,7 @@
 
 #include "calibrate.h"
 #include "files.h"
+#include "footprint.h"
 #include "image_io.h"
 #include "solve_geometry.h"
 
@@ -99,12 +100,16 @@ cv::Mat Legend(const Calibration& c, size_t s, size_t p, int width)
 double PredictedBlur(const Calibration& c, size_t s, size_t p, const Edge& edge)
 {
 	const Geometry& g = MainGeometry(c);
+	const Solution& solution = c.solution;
 	const Vec3<double> P = EdgeInCamera(c.task, g.poses[s][p], edge);
-	Vec3<double> q = c.solution.states[s].q;
+	const Vec3<double> q = solution.states[s].q;
+	const double d = solution.aperture_diameter.value, floor = solution.psf_floor_px.value;
 	// The paper's (4) takes the focal depth at the point's height, not along its ray.
-	if (c.solution.model == "paper")
-		q = { 0, 0, q.z / (1 - P.y * q.y) };
-	return std::hypot(tilt_lens::SignedBlurWidth(g.w_px, c.solution.aperture_diameter.value, q, P), c.solution.psf_floor_px.value);
+	if (solution.model == "paper")
+		return std::hypot(tilt_lens::SignedBlurWidth(g.w_px, d, { 0, 0, q.z / (1 - P.y * q.y) }, P), floor);
+	const double C = solution.field_curvature.value, curvature[2] = { C, solution.tangential_curvature.value - C };
+	const Vec3<double> n = tilt_lens::LensFromPlane(q, 1 / solution.w_mm.value).normal;
+	return std::sqrt(SquaredFootprintWidth(d, q, n, curvature, P, EdgeGradient(g, s, P, edge)) + floor * floor);
 }
 
 cv::Mat DrawOverlay(const cv::Mat& grey, const Calibration& c, size_t s, size_t p)

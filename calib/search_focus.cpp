@@ -109,14 +109,14 @@ std::vector<Candidate> Starts(const BlurFit& fit, const Unknowns& x, size_t stat
 
 }
 
-void SearchUntilted(const BlurFit& fit, const Task& task, Unknowns& x)
+void SearchUntilted(const BlurFit& fit, const Task& task, const Geometry& geometry, Unknowns& x)
 {
 	std::vector<DepthBlur> data;
 	for (const Observation& o : fit.observations)
 		if (o.state == 0)
 			data.push_back({ o.P.z, o.blur });
 	std::vector<Candidate> candidates;
-	for (const UntiltedGuess& guess : ScanUntilted(data, fit.w_px))
+	for (const UntiltedGuess& guess : ScanUntilted(data, geometry.w_px))
 	{
 		Candidate c{ x, 0 };
 		c.x.d = guess.diameter;

@@ -11,9 +11,11 @@
 namespace tiltcal
 {
 
+// Both hold the field curvature of x.
+
 /// Fits d, floor and the untilted state of x, from both sides of every possible focus.
 /// Throws Refused when two focus distances explain the blur equally well.
-void SearchUntilted(const BlurFit& fit, const Task& task, Unknowns& x);
+void SearchUntilted(const BlurFit& fit, const Task& task, const Geometry& geometry, Unknowns& x);
 
 /// Fits the numbers of one tilted state of x, from every direction, tilts up to a plane of
 /// focus along the axis, and the mirror images of the best in the boards. Two answers of

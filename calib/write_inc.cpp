@@ -60,6 +60,7 @@ std::string Numbers(const Calibration& c, const Solution& solution, const Geomet
 	out += Declare(prefix, "Shift_Y", { -(0.5 * (c.task.height - 1) - cp[1]) * pitch, cs[1] * pitch }, "mm");
 	out += Declare(prefix, "Principal_Point_X", { cp[0], cs[0] }, "px");
 	out += Declare(prefix, "Principal_Point_Y", { cp[1], cs[1] }, "px");
+	out += Declare(prefix, "Field_Curvature", solution.field_curvature, "1/mm, of the bowl that the plane of focus touches on the lens axis");
 	out += Declare(prefix, "Psf_Floor", solution.psf_floor_px, "px, the lens's own blur, not rendered");
 	const char* const names[] = { "K1", "K2", "P1", "P2", "K3" };
 	for (size_t k = 0; k < 5; ++k)
@@ -80,6 +81,7 @@ std::string Numbers(const Calibration& c, const Solution& solution, const Geomet
 
 std::string Macro(const Calibration& c, const std::string& p, bool distorted)
 {
+	const std::string curvature = c.solution.model == "curved" ? fmt::format("\t\t\tfield_curvature {}_Field_Curvature\n", p) : "";
 	const std::string distortion = distorted ? fmt::format(
 		"#if (TiltCal_Distortion)\n\t\t\tdistortion {0}_K1, {0}_K2, {0}_P1, {0}_P2, {0}_K3\n#end\n", p) : "";
 	return fmt::format(
@@ -109,7 +111,7 @@ std::string Macro(const Calibration& c, const std::string& p, bool distorted)
 		"// The camera of this state's photograph N (1, 2, ...), in the board's frame.\n"
 		"#macro {0}_Pose(N)\n"
 		"\t{0}({0}_Photo_Location[N - 1], {0}_Photo_Look_At[N - 1], {0}_Photo_Sky[N - 1])\n"
-		"#end\n", p, distortion, c.task.width * c.task.pitch_mm, c.task.height * c.task.pitch_mm);
+		"#end\n", p, curvature + distortion, c.task.width * c.task.pitch_mm, c.task.height * c.task.pitch_mm);
 }
 
 }

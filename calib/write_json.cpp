@@ -96,7 +96,12 @@ Json SolutionJson(const Calibration& c, const Solution& solution, const Geometry
 	json["distortion_terms"] = g.distortion_terms;
 	json["distortion_axis"] = "lens axis";
 	json["shared_poses"] = g.shared_poses;
-	Put(json, "field_curvature", "_per_mm", {});
+	Put(json, "field_curvature", "_per_mm", solution.field_curvature);
+	if (solution.model == "curved")
+	{
+		Put(json, "tangential_curvature", "_per_mm", solution.tangential_curvature);
+		Put(json, "sagittal_curvature", "_per_mm", solution.sagittal_curvature);
+	}
 	Put(json, "psf_floor", "_px", solution.psf_floor_px);
 	json["rms_reprojection_px"] = g.rms;
 	json["rms_blur_px"] = solution.rms_blur;
@@ -120,6 +125,11 @@ std::string CalibrationJson(const Calibration& c)
 		json["comparison"]["paper"] = SolutionJson(c, c.paper, c.paper_geometry);
 	else
 		json["comparison"]["paper"] = { { "failure", c.paper.failure } };
+	for (const Solution& s : c.compared)
+	{
+		Json& entry = json["held_out_blur_px"][s.model];
+		entry = s.failure.empty() && s.held_out_px > 0 ? Json(s.held_out_px) : Json();
+	}
 	json["render"] = SolutionJson(c, c.render, RenderGeometry(c));
 	json["render"]["note"] = "the camera without distortion that the .inc files hold unless TiltCal_Distortion is set";
 	json["program"] = "tiltcal " TILTCAL_VERSION;

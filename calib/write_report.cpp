@@ -49,6 +49,39 @@ std::string ModelLine(const Solution& s)
 		PlusMinus(s.aperture_diameter, 3), PlusMinus(s.focus_distance, 1), PlusMinus(s.focal_length, 3), s.psf_floor_px.value);
 }
 
+std::string PerMetre(const Estimate& e) { return fmt::format("{:.3f} +- {:.3f}", 1000 * e.value, 1000 * e.sigma); }
+
+std::string CurvatureLine(const Solution& s)
+{
+	return fmt::format("\nfield curvature {} per metre (tangential {}, sagittal {}): the plane of focus is the one that touches the bowl on the lens axis\n",
+		PerMetre(s.field_curvature), PerMetre(s.tangential_curvature), PerMetre(s.sagittal_curvature));
+}
+
+/// How well each model foretells the blur of photographs that it was not fitted to, and the tilts it finds.
+std::string Comparison(const Calibration& c)
+{
+	std::string out = "\nblur of photographs left out, in turn, of the fit:\n";
+	const Solution* best = nullptr;
+	for (const Solution& s : c.compared)
+	{
+		if (!s.failure.empty())
+		{
+			out += fmt::format("  {:<6} no answer: {}\n", s.model, s.failure);
+			continue;
+		}
+		out += fmt::format("  {:<6} {}", s.model, s.held_out_px > 0 ? fmt::format("{:.3f} px", s.held_out_px) : "cannot be said of one photograph a state");
+		for (size_t k = 1; k < s.states.size(); ++k)
+			out += fmt::format("   {} {:.3f} deg towards {:.2f}", c.task.states[k].name, s.states[k].lens_tilt.value, s.states[k].tilt_direction.value);
+		out += "\n";
+		if (s.held_out_px > 0 && (!best || s.held_out_px < best->held_out_px))
+			best = &s;
+	}
+	if (best)
+		out += fmt::format("  {} foretells them best{}\n", best->model, best->model == c.solution.model ? ", and was taken"
+			: fmt::format("; {} was taken, see --help. The difference is small when their tilts agree", c.solution.model));
+	return out;
+}
+
 /// One row per edge: what the plot shows, and what a reader needs to look further.
 std::string BlurCsv(const Calibration& c, size_t s)
 {
@@ -102,6 +135,10 @@ std::string SummaryTable(const Calibration& c)
 		out += fmt::format(" (k1 {:.4f}, k2 {:.4f}, p1 {:.5f}, p2 {:.5f}, k3 {:.4f}, about the lens axis); {:.3f} px without distortion", g.distortion[0],
 			g.distortion[1], g.distortion[2], g.distortion[3], g.distortion[4], c.pinhole.rms);
 	out += fmt::format("; blur {:.3f} px RMS\n", c.solution.rms_blur);
+	if (c.solution.model == "curved")
+		out += CurvatureLine(c.solution);
+	if (!c.compared.empty())
+		out += Comparison(c);
 	return out;
 }
 

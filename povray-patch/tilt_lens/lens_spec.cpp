@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 
+#include "check_effects.h"
+#include "field_curvature.h"
 #include "lens_spec.h"
 #include "optics.h"
 #include "ray_range.h"
+#include "refusal.h"
 
 namespace tilt_lens
 {
@@ -16,28 +17,6 @@ namespace
 {
 
 const double RadiansPerDegree = 3.14159265358979323846 / 180.0;
-
-/// Thrown inside ResolveTiltLens only; carries the text for the parse error.
-struct Refusal
-{
-	std::string text;
-};
-
-[[noreturn]] __attribute__((format(printf, 1, 2)))
-void Refuse(const char* format, ...)
-{
-	char buffer[512];
-	va_list arguments;
-	va_start(arguments, format);
-	std::vsnprintf(buffer, sizeof(buffer), format, arguments);
-	va_end(arguments);
-	throw Refusal{ buffer };
-}
-
-// Compilers may assume away NaN under fast-math; comparisons that both ends fail
-// survive it often enough, but POV-Ray is built without it for exactly this.
-bool IsFinite(double x) { return std::isfinite(x); }
-bool IsFinite(const Vec3d& v) { return IsFinite(v.x) && IsFinite(v.y) && IsFinite(v.z); }
 
 void RequireFinite(const char* word, const Given<double>& value)
 {
@@ -75,6 +54,7 @@ void CheckRanges(const LensSpec& spec)
 	RequirePositive("focal_length", spec.focal_length);
 	RequirePositive("f_stop", spec.f_stop);
 	RequireFinite("aperture_diameter", spec.aperture_diameter);
+	RequireFinite("field_curvature", spec.field_curvature);
 	if(spec.aperture_diameter && spec.aperture_diameter.value < 0.0)
 		Refuse("tilt_lens: aperture_diameter must not be negative, but is %g.", spec.aperture_diameter.value);
 	if(!IsFinite(spec.aperture))
@@ -324,25 +304,6 @@ Vec3d WindowCentre(const LensSpec& spec, const CameraVectors& camera, const Fram
 	return direction + (unit * spec.shift.value.x) * frame.x + (unit * spec.shift.value.y) * frame.y;
 }
 
-/// Refuses a distortion that folds within the frame, seen at 33 x 33 points of it
-/// and half a percent beyond, where anti-aliasing may ask.
-void CheckDistortion(const TiltLens& lens, const CameraVectors& camera)
-{
-	for(int i = 0; i < DistortionTerms; i++)
-		if(!IsFinite(lens.distortion[i]))
-			Refuse("tilt_lens: distortion is not a finite number.");
-	for(int i = 0; i <= 32; i++)
-		for(int j = 0; j <= 32; j++)
-		{
-			const double x = 1.01 * (i / 32.0 - 0.5), y = 1.01 * (j / 32.0 - 0.5);
-			const Vec3d v = lens.direction + x * camera.right + y * camera.up;
-			const double depth = Dot(v, lens.normal);
-			if(depth > 0.0 && !IsInvertible(lens.distortion, Dot(v, lens.basis_x) / depth, -Dot(v, lens.basis_y) / depth))
-				Refuse("tilt_lens: the distortion folds inside the frame: no ideal point is imaged %.0f%% right and "
-				       "%.0f%% up of the centre. Use smaller coefficients or a narrower view.", 200.0 * x, 200.0 * y);
-		}
-}
-
 void Resolve(const LensSpec& spec, const CameraVectors& camera, TiltLens& lens)
 {
 	CheckRanges(spec);
@@ -386,8 +347,16 @@ void Resolve(const LensSpec& spec, const CameraVectors& camera, TiltLens& lens)
 	std::copy(spec.distortion, spec.distortion + DistortionTerms, lens.distortion);
 	if(lens.distorts)
 		CheckDistortion(lens, camera);
+	lens.field_curvature = spec.field_curvature.value;
+	CheckFieldCurvature(lens, camera);
 }
 
+}
+
+double TiltLens::Kappa(const Vec3d& v) const
+{
+	return Curves() ? InverseFocusDistanceOnBowl(inverse_focus, field_curvature, normal, v)
+	                : InverseFocusDistance(inverse_focus, v);
 }
 
 bool ResolveTiltLens(const LensSpec& spec, const CameraVectors& camera, TiltLens& lens, std::string& error)

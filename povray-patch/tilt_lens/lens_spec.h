@@ -54,6 +54,7 @@ struct LensSpec
 	// Effects, off unless named.
 	bool distortion_given = false;
 	double distortion[DistortionTerms] = {};
+	Given<double> field_curvature;
 
 	/// Let pixels learn from their neighbours.
 	bool denoise = false;
@@ -96,6 +97,13 @@ struct TiltLens
 	double aperture_diameter = 0.0;
 	bool distorts = false;
 	double distortion[DistortionTerms] = {};
+	double field_curvature = 0.0;       ///< C
+
+	/// Focused on a bowl, not on a plane.
+	bool Curves() const { return field_curvature != 0.0; }
+	/// Inverse focus distance of the direction v, for reports; the tracer has its own
+	/// copy without the question.
+	double Kappa(const Vec3d& v) const;
 
 	// For reports.
 	Vec3d inverse_focus_camera;         ///< q in the camera frame

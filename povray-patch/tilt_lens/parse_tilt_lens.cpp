@@ -28,7 +28,7 @@ using tilt_lens::Vec3d;
 
 static const char Tilt_Lens_Words[] =
 	"focal_plane_tilt, lens_tilt, focal_plane, focal_points, tilt_direction, focal_distance, "
-	"image_distance, focal_length, shift, aperture_diameter, f_stop, distortion, denoise, seed, show";
+	"image_distance, focal_length, shift, aperture_diameter, f_stop, distortion, field_curvature, denoise, seed, show";
 
 // Samples per pixel where the scene gives an aperture but no blur_samples.
 static const int Default_Blur_Samples = 128;
@@ -76,7 +76,8 @@ void Parser::Parse_Tilt_Lens_Word(Camera& New)
 		{ "image_distance", &LensSpec::image_distance },
 		{ "focal_length", &LensSpec::focal_length },
 		{ "aperture_diameter", &LensSpec::aperture_diameter },
-		{ "f_stop", &LensSpec::f_stop }
+		{ "f_stop", &LensSpec::f_stop },
+		{ "field_curvature", &LensSpec::field_curvature }
 	};
 
 	// seed is one of POV-Ray's own words, a function.

@@ -44,8 +44,8 @@ double RenderCounts::RmsError() const
 FocusCounts CountFocus(const TiltLens& lens, const CameraVectors& camera,
                        int width, int height, int left, int top, int right, int bottom)
 {
-	// kappa (times w) is linear over the picture: its range over a pixel is the value
-	// at the centre plus or minus half of the changes across.
+	// kappa (times w) is linear over the picture, or nearly so over a pixel: its range
+	// there is the value at the centre plus or minus half of the changes across.
 	const double across = Dot(lens.inverse_focus, camera.right) / width;
 	const double down = Dot(lens.inverse_focus, camera.up) / height;
 	const double half_range = 0.5 * (std::fabs(across) + std::fabs(down));
@@ -62,9 +62,12 @@ FocusCounts CountFocus(const TiltLens& lens, const CameraVectors& camera,
 		{
 			const bool seen = row_seen + x * seen_across > 0.0;
 			double kappa = row_kappa + x * across;
-			if(lens.distorts && seen)
-				kappa = Dot(lens.inverse_focus, UndistortDirection(lens.distortion, lens.basis_x, lens.basis_y, lens.normal,
-				                                                   row + (double(x) / width) * camera.right));
+			if((lens.distorts || lens.Curves()) && seen)
+			{
+				const Vec3d v = row + (double(x) / width) * camera.right;
+				kappa = lens.Kappa(!lens.distorts ? v :
+				                   UndistortDirection(lens.distortion, lens.basis_x, lens.basis_y, lens.normal, v));
+			}
 
 			if(!seen && !lens.IsPinhole())
 				count.empty++;
@@ -108,6 +111,8 @@ void AppendPlane(std::string& text, const TiltLens& lens)
 	// The plane and its mirror normal are the same plane: say the angle below 90.
 	// Normalized, because the squares of a distant or near plane's q leave the numbers.
 	const Vec3d m = Normalized(q.z < 0.0 ? -1.0 * q : q);
+	if(lens.Curves())
+		Append(text, "Bowl of Focus:   touches, on the lens axis, the\n");
 	Append(text, "Plane of Focus:  %.3f deg to the sensor", AngleFromAxis(m) * DegreesPerRadian);
 	if(qxy > 0.0)
 		Append(text, ", receding towards %.2f deg", TiltDirection(m) * DegreesPerRadian);
@@ -142,7 +147,10 @@ std::string StatisticsText(const TiltLens& lens, const FocusCounts& focus, const
 	const uint64_t all = focus.All();
 	Append(text, "Pixels in Focus: in front %.2f%%  at infinity %.2f%%  behind %.2f%%  empty %.2f%%\n",
 	       Percent(focus.front, all), Percent(focus.infinity, all), Percent(focus.behind, all), Percent(focus.empty, all));
-	Append(text, "Effects:         %s\n", lens.distorts ? "distortion" : "none");
+	std::string effects = lens.distorts ? "distortion" : "";
+	if(lens.Curves())
+		effects += effects.empty() ? "field_curvature" : ", field_curvature";
+	Append(text, "Effects:         %s\n", effects.empty() ? "none" : effects.c_str());
 	if(counts.pixels > 0)
 	{
 		const double sampled = counts.RmsError();

@@ -9,6 +9,7 @@
 #include "backend/render/tracepixel.h"
 #include "backend/scene/objects.h"
 #include "backend/shape/planes.h"
+#include "backend/tilt_lens/field_curvature.h"
 #include "backend/tilt_lens/optics.h"
 #include "backend/tilt_lens/preview.h"
 #include "backend/tilt_lens/sample_sums.h"
@@ -31,10 +32,11 @@ void TracePixel::SetupTiltLens()
 	cameraDirection = Vector3d(camera_lens.lens.direction.x, camera_lens.lens.direction.y, camera_lens.lens.direction.z);
 	// False leaves the camera to stock's pinhole path.
 	useFocalBlur = camera_lens.Samples_Lens() || camera_lens.Shows() || camera_lens.lens.distorts;
+	const bool curves = camera_lens.lens.Curves();
 	if(camera_lens.lens.distorts)
-		sendRayThroughTiltLens = &TracePixel::SendRayThroughTiltLens<true>;
+		sendRayThroughTiltLens = curves ? &TracePixel::SendRayThroughTiltLens<true, true> : &TracePixel::SendRayThroughTiltLens<true, false>;
 	else
-		sendRayThroughTiltLens = &TracePixel::SendRayThroughTiltLens<false>;
+		sendRayThroughTiltLens = curves ? &TracePixel::SendRayThroughTiltLens<false, true> : &TracePixel::SendRayThroughTiltLens<false, false>;
 	tiltLensTouchesInterior = InteriorTouchesTiltLens();
 }
 
@@ -89,7 +91,7 @@ bool TracePixel::InteriorTouchesTiltLens()
 /// lens is but a point.
 ///
 /// The pinhole direction is w v, not v; so is the result, since R is linear in v.
-template<bool Distorts>
+template<bool Distorts, bool Curves>
 bool TracePixel::SendRayThroughTiltLens(Ray& ray)
 {
 	const tilt_lens::TiltLens& lens = camera.Tilt_Lens.lens;
@@ -107,7 +109,9 @@ bool TracePixel::SendRayThroughTiltLens(Ray& ray)
 
 	const tilt_lens::PupilPoint p = tilt_lens::SquareToDisc(tiltLensSample.lens_u, tiltLensSample.lens_v);
 	const Vec3d S = p.x * lens.lens_x + p.y * lens.lens_y;
-	const Vec3d R = tilt_lens::RayDirection(v, S, tilt_lens::InverseFocusDistance(lens.inverse_focus, v));
+	const DBL kappa = Curves ? tilt_lens::InverseFocusDistanceOnBowl(lens.inverse_focus, lens.field_curvature, lens.normal, v)
+	                         : tilt_lens::InverseFocusDistance(lens.inverse_focus, v);
+	const Vec3d R = tilt_lens::RayDirection(v, S, kappa);
 
 	Make_Vector(ray.Origin, camera.Location[X] + S.x, camera.Location[Y] + S.y, camera.Location[Z] + S.z);
 	Make_Vector(ray.Direction, R.x, R.y, R.z);
@@ -132,7 +136,7 @@ void TracePixel::ShowTiltLens(Colour& colour, DBL x, DBL y, DBL width, DBL heigh
 		const Vec3d direction = { ray.Direction[X], ray.Direction[Y], ray.Direction[Z] };
 		const DBL slope = Dot(direction, lens.axis);
 
-		pixel.kappa = Dot(lens.inverse_focus, direction) / slope;
+		pixel.kappa = lens.Kappa(direction) / slope;
 		pixel.inverse_depth = (distance < BOUND_HUGE) ? 1.0 / (distance * slope) : 0.0;
 		pixel.empty = false;
 	}

@@ -106,7 +106,7 @@ std::string PanelScript(const std::vector<Row>& rows, const Panel& panel, size_t
 {
 	// Labels above or below the points, away from the curve nearby: rigid has less error, and more scatter.
 	const double side = panel.scatter ? 0.8 : -0.8;
-	const struct { const char* model; const char* colour; double label; } models[] = { { "paper", "#d55e00", 0.8 }, { "rigid", "#009e73", side }, { "plane", "#0072b2", -side } };
+	const struct { const char* model; const char* colour; double label; } models[] = { { "paper", "#d55e00", 0.8 }, { "rigid", "#009e73", side }, { "plane", "#0072b2", -side }, { "curved", "#cc79a7", -side } };
 	std::string blocks, curves, labels;
 	for (const auto& m : models)
 		for (const char* const vary : { "photos", "edges" })

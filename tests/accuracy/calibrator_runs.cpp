@@ -134,8 +134,6 @@ void KeepEdges(const tiltcal::Board& board, int edges, tiltcal::Photo& photo)
 class ThinLensSource : public Source
 {
 public:
-	explicit ThinLensSource(bool upright) : upright_stop(upright) {}
-
 	int Photos() const override { return 6; }
 	int Draws(const Effort&, int wanted) const override { return std::min(wanted, 4); }
 	double ShareUsed(const Effort&) const override { return 0; }
@@ -148,7 +146,6 @@ public:
 		for (size_t s = 0; s < STATES.size(); ++s)
 		{
 			synthetic::Lens lens;
-			lens.upright_stop = upright_stop;
 			lens.floor = 1;
 			lens.tilt = s == 0 ? 0 : s == 1 ? 5 : -5;
 			const unsigned seed = unsigned(1 + 3 * k) + unsigned(s);
@@ -166,16 +163,13 @@ public:
 					KeepEdges(task.board, effort.edges, photo);
 		return task;
 	}
-
-private:
-	bool upright_stop;
 };
 
 }
 
 std::unique_ptr<Source> Photographs(const std::string& folder) { return std::make_unique<PhotographSource>(folder); }
 
-std::unique_ptr<Source> ThinLens(bool upright_stop) { return std::make_unique<ThinLensSource>(upright_stop); }
+std::unique_ptr<Source> ThinLens() { return std::make_unique<ThinLensSource>(); }
 
 double Choices(int n, int chosen)
 {

@@ -50,9 +50,8 @@ public:
 std::unique_ptr<Source> Photographs(const std::string& folder);
 
 /// A thin lens without aberrations and 0.06 px of noise per edge (0.03 per corner), by rays
-/// (tests/calib/synthetic_lens.h), six poses. `upright_stop`: its blur is exactly what the exact models
-/// say; otherwise the lens's own tilted rim limits it, whose blur is an ellipse.
-std::unique_ptr<Source> ThinLens(bool upright_stop);
+/// (tests/calib/synthetic_lens.h), six poses.
+std::unique_ptr<Source> ThinLens();
 
 /// Draw k of `draws` choices of `chosen` out of n, spread evenly over all choices.
 std::vector<int> Choice(int n, int chosen, int k, int draws);

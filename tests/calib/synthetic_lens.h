@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 //
 // Photographs of a board through an ideal thin lens, by construction of rays in long
-// double: Gauss's lens equation in the lens's own axes and straight lines to the sensor.
+// double: Gauss's lens equation in the lens's own axes and straight lines to the sensor; with field
+// curvature, focus points on the bowl and straight lines from the lens's rim through them.
 // None of it uses the formulas of optics.h that the calibrator fits with.
 
 #ifndef TILTCAL_SYNTHETIC_LENS_H
@@ -18,9 +19,7 @@ struct Lens
 	double tilt = 0, direction = 0;        // degrees; as reported by tiltcal
 	double cx = 899.5, cy = 599.5;         // principal point, px
 	double floor = 0;                      // the lens's own blur, px
-	/// The aperture is a stop right behind the lens and parallel to the sensor, so that a point's
-	/// blur is a circle; otherwise the lens's own tilted rim, whose blur is an ellipse.
-	bool upright_stop = false;
+	double curvature = 0;                  // C of the field about the lens axis, 1/mm (DESIGN.md section 2)
 
 	/// Distance along the axis at which this lens is in focus on the sensor, mm.
 	double FocusDistance() const;

@@ -39,10 +39,10 @@ TEST(Photographs, LensTiltAndDirection)
 	for (const auto& [name, truth] : { std::pair{ "plus5", 5.0 }, std::pair{ "minus5", -5.0 } })
 	{
 		const Json state = State(json, name);
-		// Issue 2: 0.7 degrees, because the plane model takes the lens's field curvature for
-		// 0.4 to 0.6 degrees of tilt; 3 degrees of direction.
-		EXPECT_NEAR(state.at("lens_tilt_deg").get<double>(), truth, 0.7);
-		EXPECT_NEAR(state.at("tilt_direction_deg").get<double>(), 0, 3);
+		// Issue 5: 0.25 degrees of the tilt as a vector, 0.1 aimed at. Measured 0.06; the plane model, which takes
+		// field curvature for tilt, is off by 0.22.
+		const double tilt = state.at("lens_tilt_deg"), phi = state.at("tilt_direction_deg").get<double>() * M_PI / 180;
+		EXPECT_LT(std::hypot(tilt * std::sin(phi), tilt * std::cos(phi) - truth), 0.1);
 		// Noise alone is a small part of that.
 		EXPECT_LT(state.at("lens_tilt_sigma_deg").get<double>(), 0.1);
 	}
@@ -63,8 +63,18 @@ TEST(Photographs, LensAndSensor)
 	// Untilted the axis meets the sensor at its centre; pixels at some 0.4 px sigma.
 	EXPECT_NEAR(json.at("principal_point_px")[0].get<double>(), 899.5, 3);
 	EXPECT_NEAR(json.at("principal_point_px")[1].get<double>(), 599.5, 3);
-	EXPECT_EQ(json.at("model"), "plane");
-	EXPECT_EQ(json.at("field_curvature_per_mm"), 0);
+	EXPECT_EQ(json.at("model"), "curved");
+}
+
+TEST(Photographs, FieldCurvature)
+{
+	const Json json = Calibration();
+	// photos-45mm's truth.json: w^2 (1/Z - 1/U) = -0.14 at 12 mm from the axis, so C = -0.14/12^2 = -0.001 for the least
+	// spot; the mean of tangential and sagittal curvature lies between that and 0, which they do on both sides.
+	const double C = json.at("field_curvature_per_mm");
+	EXPECT_NEAR(C, -0.0006, 0.0004);
+	EXPECT_LT(json.at("field_curvature_sigma_per_mm").get<double>(), 0.1 * std::abs(C));
+	EXPECT_NEAR((json.at("tangential_curvature_per_mm").get<double>() + json.at("sagittal_curvature_per_mm").get<double>()) / 2, C, 1e-9);
 }
 
 TEST(Photographs, CornersAreReprojected)
@@ -88,8 +98,8 @@ TEST(Photographs, PrincipalPointMovesByAFewPixelsOnly)
 TEST(Photographs, BlurIsExplained)
 {
 	const Json json = Calibration();
-	// 0.45 px measured, of widths up to 28 px; astigmatism and field curvature are the rest.
-	EXPECT_LT(json.at("rms_blur_px").get<double>(), 0.7);
+	// 0.31 px measured, of widths up to 28 px; oblique spherical aberration and the vignetted pupil are the rest.
+	EXPECT_LT(json.at("rms_blur_px").get<double>(), 0.4);
 	EXPECT_GT(json.at("psf_floor_px").get<double>(), 0.2);
 	EXPECT_LT(json.at("psf_floor_px").get<double>(), 2);
 }
@@ -142,7 +152,7 @@ TEST(Photographs, FilesAreThere)
 		EXPECT_GT(std::filesystem::file_size(FOLDER + "/" + name), 500u) << name;
 	std::stringstream text;
 	text << std::ifstream(FOLDER + "/camera-plus5.inc").rdbuf();
-	for (const char* const part : { "#macro TiltCal_plus5(Location, Look_At, Sky)", "tilt_lens {", "focal_plane_tilt", "image_distance", "aperture_diameter",
+	for (const char* const part : { "#macro TiltCal_plus5(Location, Look_At, Sky)", "tilt_lens {", "field_curvature TiltCal_plus5_Field_Curvature", "focal_plane_tilt", "image_distance", "aperture_diameter",
 		"#declare TiltCal_plus5_Photo_6_Sky", "right 36*x", "up 24*y" })
 		EXPECT_NE(text.str().find(part), std::string::npos) << part;
 }

@@ -52,7 +52,7 @@ bad_pitch)
 	refuses 2 square calibrate --board 12x9 --square -1 --pitch 0.02 --untilted "$target/untilted-1.jpg" --out result ;;
 bad_name) calibrate 2 NAME "$target/untilted-1.jpg" --tilted "$target/plus5-1.jpg"; calibrate 2 NAME "$target/untilted-1.jpg" --tilted "5deg=$target/plus5-1.jpg" ;;
 same_name) calibrate 2 "already taken" "$target/untilted-1.jpg" --tilted "untilted=$target/plus5-1.jpg" ;;
-unbuilt_model) calibrate 2 "plane" "$target/untilted-1.jpg" --model curved; calibrate 2 "plane" "$target/untilted-1.jpg" --model magic ;;
+unbuilt_model) calibrate 2 "plane" "$target/untilted-1.jpg" --model magic ;;
 unwritable_folder)
 	# A file in the way of the folder stops root too.
 	: >blocked

@@ -42,7 +42,8 @@ struct FloatWord
 
 const FloatWord LensFloats[] = {
 	{"focal_plane_tilt", -89, 89}, {"lens_tilt", -60, 60}, {"tilt_direction", -360, 360}, {"focal_distance", -1, 20},
-	{"image_distance", 0.1, 3}, {"focal_length", 0.1, 2}, {"aperture_diameter", 0, 2}, {"f_stop", 0.1, 22} };
+	{"image_distance", 0.1, 3}, {"focal_length", 0.1, 2}, {"aperture_diameter", 0, 2}, {"f_stop", 0.1, 22},
+	{"field_curvature", -2, 2} };
 
 // Tokens, so that they can be left out, doubled and swapped.
 class Writer
@@ -189,9 +190,9 @@ class Writer
 				has_aperture = random.Chance(0.6);
 				if (has_aperture)
 					LensWord(random.Chance(0.7) ? 6 : 7);   // one of aperture_diameter, f_stop
-				for (int word = 8; word <= 10; word++)
+				for (int word = 8; word <= 11; word++)
 					if (random.Chance(0.15))
-						LensWord(word);                     // shift, distortion, show
+						LensWord(word);                     // field_curvature, shift, distortion, show
 			}
 			Say("}");
 		}
