@@ -142,8 +142,8 @@ TEST(Pilot, BlocksAreSpreadOverThePicture)
 	PilotRequest r;
 	r.blocks = 64;
 	r.samples = 64;
-	const int b = PilotBlockSize;
-	const auto chosen = PilotBlocks(r, 80 * b, 60 * b); // 80 x 60 blocks
+	const int side = PilotBlockSize;
+	const auto chosen = PilotBlocks(r, 80 * side, 60 * side); // 80 x 60 blocks
 	int count = 0, quadrant[4] = {};
 	for(int y = 0; y < 60; y++)
 		for(int x = 0; x < 80; x++)

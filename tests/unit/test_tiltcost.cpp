@@ -13,6 +13,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <random>
 #include <functional>
 #include <string>
 #include <vector>
@@ -160,7 +161,7 @@ TEST(Prediction, WhatIsBrighterThanWhiteIsNoError)
 TEST(Prediction, AdaptiveSamplesAndTheirTime)
 {
 	// One block without variance, 1 us a sample; one with 0.01, 3 us a sample.
-	const double samples = 64.0 * 256;
+	const double samples = Side * Side * 256.0;
 	const Pilot pilot(ParsePilot(Flat(0, samples * 1e-6, 256, 0.5, 0) + Flat(8, samples * 3e-6, 256, 0.5, 0.01)));
 	const Prediction p = pilot.Predict({0, 1024, 1e-4, 0.9});
 	// The first stops at the first decision, 16. The second: 64 are too few even for 0.01 < 1e-4 n; at 128 the
@@ -180,8 +181,9 @@ TEST(Prediction, NeighboursVote)
 	// One uncertain pixel in the middle of a calm block draws its neighbours along.
 	const Pilot pilot(ParsePilot(BlockText(0, 1, 64, [](int pixel, int) { return Grey(0.5, pixel == 3 * Side + 3 ? 0.02 : 0); })));
 	const double mean = pilot.Predict({4, 64, 1e-4, 0.9}).samples_per_pixel;
-	// It alone at 64 and the fifteen others inside at 4 would be 7.75.
-	EXPECT_GT(mean, 7.75 + 1);
+	// It alone at 64 and all others inside at 4 would be less.
+	const double inside = (Side - 4) * (Side - 4);
+	EXPECT_GT(mean, (64 + 4 * (inside - 1)) / inside + 0.25);
 	EXPECT_LT(mean, 64);
 }
 
@@ -189,7 +191,7 @@ TEST(Prediction, JackknifeLeavesOutEveryTenth)
 {
 	std::string text;
 	for (int b = 0; b < 20; ++b)
-		text += Flat(8 * b, b % 10 == 3 ? 64 * 16 * 1e-5 : 64 * 16 * 1e-6, 16, 0.5, 0);
+		text += Flat(8 * b, b % 10 == 3 ? Side * Side * 16 * 1e-5 : Side * Side * 16 * 1e-6, 16, 0.5, 0);
 	const Pilot pilot(ParsePilot(text));
 	EXPECT_NEAR(pilot.Predict(Fixed(16), 3, 10).seconds_per_pixel, 16e-6, 1e-12);
 	EXPECT_NEAR(pilot.Predict(Fixed(16)).seconds_per_pixel, 16e-6 * 1.9, 1e-12);
@@ -200,9 +202,33 @@ TEST(Prediction, JackknifeLeavesOutEveryTenth)
 	EXPECT_EQ(SpreadOf(Pilot(ParsePilot(Flat(0, 1, 16, 0.5, 0))), Machine{1e6, 0, 0, 1}, Fixed(16)).error, 0);
 }
 
+// A grey field with independent noise of variance 0.01/n: denoise finds it; a checkerboard of single pixels it must leave.
+TEST(Prediction, DenoiseHelpsWhereNeighboursAreAlike)
+{
+	for (const bool checks : {false, true})
+	{
+		std::mt19937 random(3);
+		std::normal_distribution<double> normal(0, 0.1);
+		std::vector<double> sums(Side * Side);
+		const Pilot pilot(ParsePilot(BlockText(0, 1, 1024, [&](int pixel, int k)
+		{
+			for (int i = k > 0 ? 1 << (k - 1) : 0; i < 1 << k; ++i)
+				sums[size_t(pixel)] += normal(random);
+			const double truth = checks ? 0.3 + 0.4 * ((pixel % Side + pixel / Side) % 2) : 0.5;
+			return Grey(truth + sums[size_t(pixel)] / (1 << k), 0.01);
+		})));
+		const double raw = pilot.Predict(Fixed(16)).error, denoised = pilot.PredictDenoised(Fixed(16));
+		EXPECT_NEAR(raw, 0.1 / 4, 0.004);
+		if (checks)
+			EXPECT_NEAR(denoised, raw, 0.15 * raw);
+		else
+			EXPECT_LT(denoised, 0.5 * raw);
+	}
+}
+
 TEST(Search, RowsScaleToThePicture)
 {
-	const Pilot pilot(ParsePilot(Flat(0, 64 * 16 * 2e-6, 16, 0.5, 0)));
+	const Pilot pilot(ParsePilot(Flat(0, Side * Side * 16 * 2e-6, 16, 0.5, 0)));
 	const Row row = MakeRow(pilot, Machine{1e6, 3, 4, 8}, Fixed(10));
 	EXPECT_DOUBLE_EQ(row.rays, 1e7);
 	EXPECT_NEAR(row.cpu, 3 + 20, 1e-9);
