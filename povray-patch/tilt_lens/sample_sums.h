@@ -89,6 +89,25 @@ struct SampleSums
 		return c;
 	}
 
+	/// The same for a pixel that may have stopped early because its few samples agreed
+	/// by chance: a part of what `variance`, that of a sample in the pixels around, lets
+	/// expect is added.
+	LevelChanges Changes(double variance) const
+	{
+		LevelChanges c = Changes();
+
+		if(count >= FewSamples)
+			return c;
+		// Nets of so few points are a little better than independent samples: v(n) ~ n^-1.2.
+		const double fall = 2.2974;             // 2^1.2
+		double change = variance / count * HiddenPart * (fall - 1.0);
+		for(int j = 0; j < c.changes; j++, change *= fall)
+			c.change[j] += change;
+		return c;
+	}
+	static const int FewSamples = 16;
+	static constexpr double HiddenPart = 0.15;  // measured: 0.04 to 0.3 (tests/accuracy/estimate.sh)
+
 	/// Largest variance of a sample over the channels.
 	double Variance() const
 	{
@@ -110,9 +129,11 @@ struct TilePixel
 	int x, y;
 	/// Index of the level that it is to reach; at first, at which it had converged by itself.
 	size_t level;
+	/// Variance per sample of the pixels around, where that was asked; else 0.
+	double neighbourhood_variance;
 
 	TilePixel(int pixel_x, int pixel_y, uint32_t seed) :
-		sampler((uint32_t)pixel_x, (uint32_t)pixel_y, seed), x(pixel_x), y(pixel_y), level(0)
+		sampler((uint32_t)pixel_x, (uint32_t)pixel_y, seed), x(pixel_x), y(pixel_y), level(0), neighbourhood_variance(0.0)
 	{
 	}
 };

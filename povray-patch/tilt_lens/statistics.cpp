@@ -154,7 +154,8 @@ std::string StatisticsText(const TiltLens& lens, const FocusCounts& focus, const
 	if(counts.pixels > 0)
 	{
 		const double sampled = counts.RmsError();
-		const double rms = denoised_rms < 0.0 ? sampled : denoised_rms;
+		// Denoising is not expected to add error.
+		const double rms = denoised_rms < 0.0 ? sampled : std::min(sampled, denoised_rms);
 		Append(text, "Samples/Pixel:   min %u  mean %.2f  max %u   Camera Rays: %.0f\n", counts.min_samples,
 		       double(counts.samples) / double(counts.pixels), counts.max_samples, double(counts.samples));
 		Append(text, "Estimated Error: %.5f RMS of the picture (linear), %.2f of 255 levels\n", rms, 255.0 * rms);

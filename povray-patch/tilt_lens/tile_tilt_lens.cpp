@@ -91,7 +91,7 @@ void TracePixel::TraceTiltLensTile(int left, int top, int right, int bottom, int
 		cooperate();
 		if((pixel->x >= left) && (pixel->x <= right) && (pixel->y >= top) && (pixel->y <= bottom))
 			colours.push_back(pixel->sums.Mean());
-		threadData->tiltLensCounts.AddPixel(pixel->sums.count, pixel->sums.Changes());
+		threadData->tiltLensCounts.AddPixel(pixel->sums.count, pixel->sums.Changes(pixel->neighbourhood_variance));
 	}
 	threadData->Stats()[Number_Of_Pixels] += colours.size();
 
@@ -171,7 +171,10 @@ void TracePixel::ConvergeTiltLensTile(vector<TilePixel>& tile, int left, int top
 
 	const UncertaintyMap map = { &uncertainty[0], l, t, columns };
 	for(vector<TilePixel>::iterator pixel = tile.begin(); pixel != tile.end(); pixel++)
-		pixel->level = NeighbourhoodLevel(lens.levels, pixel->level, NeighbourhoodVariance(map, pixel->x, pixel->y, 0, 0, width - 1, height - 1), camera.Variance);
+	{
+		pixel->neighbourhood_variance = NeighbourhoodVariance(map, pixel->x, pixel->y, 0, 0, width - 1, height - 1);
+		pixel->level = NeighbourhoodLevel(lens.levels, pixel->level, pixel->neighbourhood_variance, camera.Variance);
+	}
 }
 
 }
