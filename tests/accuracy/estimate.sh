@@ -3,8 +3,8 @@
 #
 #   estimate.sh SCENE STOCK OURS COMPARE WORK
 #
-# SCENE: a name of scenes/. The truth has 4096 samples per pixel of another seed, so its own error is a tenth of the
-# smallest that is judged. 72 x 54 pixels: the mean of 4,000 squared errors is itself uncertain by a few percent.
+# SCENE: a name of scenes/. The truth has 2048 samples per pixel of another seed, so its own error is a fifth of the
+# smallest that is judged, which in quadrature is nothing. 72 x 54 pixels: the mean of 4,000 squared errors is itself uncertain by a few percent.
 here_accuracy=$(cd "$(dirname "$0")" && pwd)
 . "$here_accuracy/../render/common.sh"
 here=$here_accuracy/scenes
@@ -17,7 +17,7 @@ picture() {
 	render "$ours" "$name.ppm" "$here/$case.pov" +W72 +H54 Declare=Race_Camera=1 "$@"
 }
 
-picture truth Declare=Race_Max=4096 Declare=Race_Variance=0 Declare=Race_Seed=1
+picture truth Declare=Race_Max=2048 Declare=Race_Variance=0 Declare=Race_Seed=1
 for denoise in 0 1; do
 	for setting in "0 32 0" "0 128 0" "4 64 0.001" "8 256 0.0001"; do
 		set -- $setting
