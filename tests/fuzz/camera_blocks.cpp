@@ -26,7 +26,7 @@ const char* const NotNumbers[] = {
 
 const char* const Strays[] = {
 	"{", "}", "{", "}", ",", "<", ">", "(", ")", "-", ";", "tilt_lens", "tilt_lens {}", "camera", "camera {", "focal_length", "focal_points",
-	"show", "show plane", "focus", "shift", "distortion", "lens_tilt", "location", "look_at", "angle", "aperture", "sphere", "pigment",
+	"show", "show plane", "focus", "denoise", "seed", "shift", "distortion", "lens_tilt", "location", "look_at", "angle", "aperture", "sphere", "pigment",
 	"perspective", "orthographic", "fisheye", "normal", "Other", "NoCamera", "Vector", "42", "\"", "//", "/*", "\"text\"",
 	"#if (0)", "#end", "#declare", "#local A = 1;", "#undef Vector", "#macro M()", "blades", "bokeh", "default", "@", "\xff" };
 
@@ -193,6 +193,10 @@ class Writer
 				for (int word = 8; word <= 11; word++)
 					if (random.Chance(0.15))
 						LensWord(word);                     // field_curvature, shift, distortion, show
+				if (random.Chance(0.15))
+					Say("denoise");
+				if (random.Chance(0.1))
+					Say(random.Chance(0.8) ? "seed 12" : "seed 1.5");
 			}
 			Say("}");
 		}
