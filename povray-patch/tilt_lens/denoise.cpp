@@ -43,6 +43,7 @@ struct Band
 	Plane first[3], later[3], mean[PictureChannels];
 	Plane variance;                     // of the mean, own estimate, smoothed
 	Plane cost, best[PictureChannels];
+	bool used[PictureChannels];         // not 0 everywhere, as transparency mostly is
 };
 
 Plane Cut(const NoisyPicture& picture, const std::vector<float>& from, int top, int bottom)
@@ -82,7 +83,10 @@ void CutBand(const NoisyPicture& picture, int top, int bottom, Band& band)
 		v += 1e-14f;                    // flat parts divide by it
 	band.cost = band.variance;
 	for(int c = 0; c < PictureChannels; c++)
+	{
 		band.best[c] = band.mean[c];
+		band.used[c] = std::any_of(band.mean[c].v.begin(), band.mean[c].v.end(), [](float v) { return v != 0.0f; });
+	}
 }
 
 /// Takes the kernel's result where it promises more than what is best so far.
@@ -115,6 +119,8 @@ void Try(const Kernel& kernel, Band& band)
 	}
 	for(int c = 0; any && (c < PictureChannels); c++)
 	{
+		if(!band.used[c])
+			continue;
 		const Plane smooth = kernel.Apply(band.mean[c]);
 		for(size_t i = 0; i < weight.v.size(); i++)
 			if(weight.v[i] > 0.0f)

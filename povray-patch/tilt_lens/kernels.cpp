@@ -21,11 +21,12 @@ int Reflected(int i, int n)
 namespace
 {
 
-/// to += weight * from, moved by (dx, dy); what comes from beyond the plane is left out.
-void AddMoved(const Plane& from, int dx, int dy, float weight, Plane& to)
+/// to += weight * from, moved by (dx, dy), except on so many columns and rows along the
+/// edges; what comes from beyond the plane is left out.
+void AddMoved(const Plane& from, int dx, int dy, float weight, Plane& to, int columns, int rows)
 {
-	const int left = std::max(0, -dx), right = std::min(from.width, from.width - dx);
-	for(int y = std::max(0, -dy); y < std::min(from.height, from.height - dy); y++)
+	const int left = std::max(columns, -dx), right = from.width - std::max(columns, dx);
+	for(int y = std::max(rows, -dy); y < from.height - std::max(rows, dy); y++)
 	{
 		const float *source = &from.v[size_t(y + dy) * from.width + dx];
 		float *target = &to.v[size_t(y) * to.width];
@@ -48,14 +49,15 @@ std::vector<float> HalfGaussian(double sigma, int reach)
 	return half;
 }
 
-/// Separable convolution with weights half[|i|], columns after rows.
-Plane Separable(const Plane& p, const std::vector<float>& half)
+/// Separable convolution with weights half[|i|], columns after rows; not on `edge` pixels
+/// along the edges.
+Plane Separable(const Plane& p, const std::vector<float>& half, int edge)
 {
 	Plane rows(p.width, p.height), both(p.width, p.height);
 	for(int i = 1 - int(half.size()); i < int(half.size()); i++)
-		AddMoved(p, i, 0, half[std::abs(i)], rows);
+		AddMoved(p, i, 0, half[std::abs(i)], rows, edge, 0);
 	for(int i = 1 - int(half.size()); i < int(half.size()); i++)
-		AddMoved(rows, 0, i, half[std::abs(i)], both);
+		AddMoved(rows, 0, i, half[std::abs(i)], both, edge, edge);
 	return both;
 }
 
@@ -89,7 +91,7 @@ Plane Kernel::Apply(const Plane& p, bool squared) const
 {
 	Plane result(p.width, p.height);
 	for(const Tap& tap : taps)
-		AddMoved(p, tap.dx, tap.dy, squared ? tap.weight * tap.weight : tap.weight, result);
+		AddMoved(p, tap.dx, tap.dy, squared ? tap.weight * tap.weight : tap.weight, result, KernelReach, KernelReach);
 	if(half.empty())
 		return result;
 
@@ -100,7 +102,7 @@ Plane Kernel::Apply(const Plane& p, bool squared) const
 		for(float& w : weights)
 			w *= w;
 	const float out = squared ? centre * centre : centre, scale = squared ? 1.0f / (rest * rest) : 1.0f / rest;
-	result = Separable(p, weights);
+	result = Separable(p, weights, KernelReach);
 	for(size_t i = 0; i < result.v.size(); i++)
 		result.v[i] = (result.v[i] - out * p.v[i]) * scale;
 	return result;
@@ -121,7 +123,7 @@ std::vector<Kernel> AllKernels()
 Plane Smoothed(const Plane& p)
 {
 	static const std::vector<float> half = HalfGaussian(2.0, 6);
-	return Separable(p, half);
+	return Separable(p, half, 0);
 }
 
 }

@@ -28,8 +28,8 @@ int Reflected(int i, int n);
 /// Kernels reach no farther than this, in pixels.
 const int KernelReach = 10;
 
-/// A kernel of sum 1 whose centre weighs nothing. Beyond its borders a plane counts as 0:
-/// results are right KernelReach pixels inside.
+/// A kernel of sum 1 whose centre weighs nothing. Results hold KernelReach pixels inside a
+/// plane's edges; nearer to them they mean nothing.
 class Kernel
 {
 	public:
