@@ -4,8 +4,9 @@
 #   cmake -DTILTCAL= -DPOVRAY= -DCOMPARE=<compare_corners> -DSCENES= -DCALIBRATION= -DSTATE= -DWORK= -P board.cmake
 cmake_minimum_required(VERSION 3.25)
 
-# Eight samples: a corner comes from some hundred pixels, whose noise averages out to a few hundredths of a pixel.
-set(SAMPLES 8)
+# A corner comes from some hundred pixels, whose noise averages out; not so in the most blurred photograph, minus5-1, which
+# has 0.41 px with 8 samples and 0.34 with 32.
+set(SAMPLES 32)
 # RMS distance in pixels that the issue asks for; detection itself repeats to 0.06 px at this blur.
 set(LIMIT 0.4)
 set(states_in_board_pov untilted plus5 minus5)
