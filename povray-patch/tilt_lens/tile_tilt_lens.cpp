@@ -78,6 +78,7 @@ void TracePixel::TraceTiltLensTile(int left, int top, int right, int bottom, int
 	int l = left, t = top, r = right, b = bottom;
 	if(lens.Denoises())
 		lens.denoised->Extend(l, t, r, b);
+	tile.reserve((r - l + 1) * (b - t + 1));
 	for(int y = t; y <= b; y++)
 		for(int x = l; x <= r; x++)
 			tile.push_back(TilePixel(x, y, lens.Seed()));

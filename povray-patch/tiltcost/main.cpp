@@ -73,6 +73,16 @@ std::string Answer(const Options& options, const Pilot& pilot, const Machine& ma
 	return AnswerText(*row) + (denoised ? AnswerText(*denoised) : "");
 }
 
+/// The table's column of errors with denoise, where the pilot knows enough, and the time that it takes.
+void PredictDenoised(const Pilot& pilot, Report& report)
+{
+	for (auto* rows : {&report.rows, &report.own})
+		for (Row& row : *rows)
+			if (row.setting.max <= pilot.Samples())
+				row.denoised_error = pilot.PredictDenoised(row.setting);
+	report.denoise_seconds = DenoiseSecondsPerPixel() * report.pilot.machine.pixels;
+}
+
 void Run(const Options& options)
 {
 	CheckFiles(options);
@@ -100,13 +110,15 @@ void Run(const Options& options)
 	report.rows = TableRows(report.best, 10);
 	for (const Setting& setting : options.own)
 		report.own.push_back(MakeRow(pilot, report.pilot.machine, setting));
-	for (auto* rows : {&report.rows, &report.own})
-		for (Row& row : *rows)
-			if (row.setting.max <= pilot.Samples())
-				row.denoised_error = pilot.PredictDenoised(row.setting);
-	report.denoise_seconds = DenoiseSecondsPerPixel() * report.pilot.machine.pixels;
-	const size_t stop = std::min(StopsPaying(report.rows, options.stop_levels), report.rows.size() - 1);
-	report.spread = SpreadOf(pilot, report.pilot.machine, report.rows[stop].setting);
+	// Slow, and nobody reads it who asked the one question.
+	const bool table = options.time <= 0 && options.error <= 0 && options.levels <= 0;
+	if (table || !options.csv.empty())
+		PredictDenoised(pilot, report);
+	if (table)
+	{
+		const size_t stop = std::min(StopsPaying(report.rows, options.stop_levels), report.rows.size() - 1);
+		report.spread = SpreadOf(pilot, report.pilot.machine, report.rows[stop].setting);
+	}
 
 	if (!options.csv.empty())
 		tiltcal::WriteText(options.csv, CsvText(report));

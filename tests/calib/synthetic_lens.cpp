@@ -188,4 +188,11 @@ tiltcal::Task MakeTask(std::vector<tiltcal::State> states)
 	return task;
 }
 
+double TiltError(const tiltcal::StateLens& found, const Lens& lens)
+{
+	const double phi = found.tilt_direction.value * M_PI / 180, truth = lens.direction * M_PI / 180;
+	return std::hypot(found.lens_tilt.value * std::sin(phi) - lens.tilt * std::sin(truth),
+		found.lens_tilt.value * std::cos(phi) - lens.tilt * std::cos(truth));
+}
+
 }

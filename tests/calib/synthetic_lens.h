@@ -40,6 +40,9 @@ tiltcal::State Photograph(const std::string& name, const Lens& lens, const Noise
 /// A task of the given states; the first is the untilted one.
 tiltcal::Task MakeTask(std::vector<tiltcal::State> states);
 
+/// Length of the difference of the tilts as vectors, degrees: 2 at 90 is -2 at -90.
+double TiltError(const tiltcal::StateLens& found, const Lens& lens);
+
 /// A board parallel to the sensor at `distance` mm.
 tiltcal::State PhotographParallel(const std::string& name, const Lens& lens, double distance);
 

@@ -22,19 +22,12 @@ using synthetic::Lens;
 using synthetic::MakeTask;
 using synthetic::Noise;
 using synthetic::Photograph;
+using synthetic::TiltError;
 
 struct Case
 {
 	double tilt, direction;
 };
-
-/// Length of the difference of the tilts as vectors, degrees: 2 at 90 is -2 at -90.
-double TiltError(const StateLens& found, const Lens& lens)
-{
-	const double phi = found.tilt_direction.value * M_PI / 180, truth = lens.direction * M_PI / 180;
-	return std::hypot(found.lens_tilt.value * std::sin(phi) - lens.tilt * std::sin(truth),
-		found.lens_tilt.value * std::cos(phi) - lens.tilt * std::cos(truth));
-}
 
 class EveryTilt : public testing::TestWithParam<Case> {};
 

@@ -20,14 +20,7 @@ using synthetic::Lens;
 using synthetic::MakeTask;
 using synthetic::Noise;
 using synthetic::Photograph;
-
-/// Length of the difference of the tilts as vectors, degrees.
-double TiltError(const StateLens& found, const Lens& lens)
-{
-	const double phi = found.tilt_direction.value * M_PI / 180, truth = lens.direction * M_PI / 180;
-	return std::hypot(found.lens_tilt.value * std::sin(phi) - lens.tilt * std::sin(truth),
-		found.lens_tilt.value * std::cos(phi) - lens.tilt * std::cos(truth));
-}
+using synthetic::TiltError;
 
 Task Photographs(double curvature, double tilt, double direction, const Noise& noise)
 {
