@@ -2,6 +2,8 @@
 
 #include "prediction.h"
 
+#include "transfer.h"
+
 #include <boost/math/distributions/chi_squared.hpp>
 #include <fmt/format.h>
 
@@ -20,9 +22,6 @@ namespace
 double Square(double x) { return x * x; }
 
 double Clipped(double x) { return std::min(1.0, std::max(0.0, x)); }
-
-/// IEC 61966-2-1.
-double DisplayEncoded(double x) { return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055; }
 
 struct Rgb
 {
@@ -70,7 +69,7 @@ Pilot::Pixel Pilot::Prepare(const std::vector<PilotLevel>& levels)
 		for (int i = 0; i < 3; ++i)
 		{
 			linear.c[i] = Clipped(level.mean[i]);
-			encoded.c[i] = DisplayEncoded(linear.c[i]);
+			encoded.c[i] = tiltcal::EncodeSrgb(linear.c[i]);
 		}
 		means[LINEAR].push_back(linear);
 		means[ENCODED].push_back(encoded);
