@@ -67,7 +67,19 @@ inline Uncertainty ToUncertainty(double variance)
 /// Inverse of ToUncertainty, within 2^(1/8) where variance lies in 2^-47 .. 2^16.
 inline double FromUncertainty(Uncertainty u)
 {
-	return u == 0 ? 0.0 : std::exp2((int(u) - 190) * 0.25);
+	// Every pixel asks for 25 of them.
+	struct Table
+	{
+		double variance[256];
+		Table()
+		{
+			variance[0] = 0.0;
+			for(int i = 1; i < 256; i++)
+				variance[i] = std::exp2((i - 190) * 0.25);
+		}
+	};
+	static const Table table;
+	return table.variance[u];
 }
 
 /// Uncertainties of a rectangle of pixels, row by row, from pixel (left, top) on.

@@ -33,7 +33,6 @@ const float Opposition = 0.462f;        // 2^1.3 - 2
 // five scenes at 8 to 64 samples (tests/accuracy, estimate).
 const double Optimism = 1.08 * 1.08;
 // Kernels reach KernelReach pixels, and what they promise is averaged over a few more.
-const int SmoothingReach = 6;
 const int Margin = KernelReach + SmoothingReach;
 static_assert(Margin == DenoiseReach, "the header promises how far pixels look");
 
@@ -44,6 +43,7 @@ struct Band
 	Plane variance;                     // of the mean, own estimate, smoothed
 	Plane cost, best[PictureChannels];
 	bool used[PictureChannels];         // not 0 everywhere, as transparency mostly is
+	Plane rows, smooth, other, bias, noise, weight;   // for Try: fresh memory for every kernel is slow
 };
 
 Plane Cut(const NoisyPicture& picture, const std::vector<float>& from, int top, int bottom)
@@ -78,7 +78,9 @@ void CutBand(const NoisyPicture& picture, int top, int bottom, Band& band)
 			variance.v[i] += difference * difference * s * (1.0f - s) * (NetGain / 3.0f);
 		}
 	}
-	band.variance = Smoothed(variance);
+	for(Plane *p : { &band.rows, &band.smooth, &band.other, &band.bias, &band.noise, &band.weight, &band.variance })
+		*p = Plane(share.width, share.height);
+	Smooth(variance, band.rows, band.variance);
 	for(float& v : band.variance.v)
 		v += 1e-14f;                    // flat parts divide by it
 	band.cost = band.variance;
@@ -92,39 +94,38 @@ void CutBand(const NoisyPicture& picture, int top, int bottom, Band& band)
 /// Takes the kernel's result where it promises more than what is best so far.
 void Try(const Kernel& kernel, Band& band)
 {
-	Plane bias(band.cost.width, band.cost.height);
+	const size_t pixels = band.cost.v.size();
+	for(size_t i = 0; i < pixels; i++)
+		band.other.v[i] = Opposition * band.variance.v[i];
 	for(int c = 0; c < 3; c++)
 	{
-		const Plane first = kernel.Apply(band.first[c]), later = kernel.Apply(band.later[c]);
-		for(size_t i = 0; i < bias.v.size(); i++)
-			bias.v[i] += (first.v[i] - band.later[c].v[i]) * (later.v[i] - band.first[c].v[i]) * (1.0f / 3.0f);
+		kernel.Apply(band.first[c], band.rows, band.smooth);
+		kernel.Apply(band.later[c], band.rows, band.noise);
+		for(size_t i = 0; i < pixels; i++)
+			band.other.v[i] += (band.smooth.v[i] - band.later[c].v[i]) * (band.noise.v[i] - band.first[c].v[i]) * (1.0f / 3.0f);
 	}
-	for(size_t i = 0; i < bias.v.size(); i++)
-		bias.v[i] += Opposition * band.variance.v[i];
-	bias = Smoothed(bias);
-	const Plane noise = kernel.ApplySquared(band.variance);
+	Smooth(band.other, band.rows, band.bias);
+	kernel.ApplySquared(band.variance, band.rows, band.noise);
 
-	Plane weight(bias.width, bias.height);
 	bool any = false;
-	for(size_t i = 0; i < bias.v.size(); i++)
+	for(size_t i = 0; i < pixels; i++)
 	{
-		const float own = band.variance.v[i], neighbours = std::max(bias.v[i], 0.0f) + noise.v[i];
+		const float own = band.variance.v[i], neighbours = std::max(band.bias.v[i], 0.0f) + band.noise.v[i];
 		const float cost = own * neighbours / (own + neighbours);
-		if(cost < band.cost.v[i])
-		{
-			band.cost.v[i] = cost;
-			weight.v[i] = own / (own + neighbours);
-			any = true;
-		}
+		band.weight.v[i] = cost < band.cost.v[i] ? own / (own + neighbours) : 0.0f;
+		band.cost.v[i] = std::min(cost, band.cost.v[i]);
+		any |= band.weight.v[i] > 0.0f;
 	}
 	for(int c = 0; any && (c < PictureChannels); c++)
 	{
 		if(!band.used[c])
 			continue;
-		const Plane smooth = kernel.Apply(band.mean[c]);
-		for(size_t i = 0; i < weight.v.size(); i++)
-			if(weight.v[i] > 0.0f)
-				band.best[c].v[i] = band.mean[c].v[i] + weight.v[i] * (smooth.v[i] - band.mean[c].v[i]);
+		kernel.Apply(band.mean[c], band.rows, band.smooth);
+		for(size_t i = 0; i < pixels; i++)
+		{
+			const float changed = band.mean[c].v[i] + band.weight.v[i] * (band.smooth.v[i] - band.mean[c].v[i]);
+			band.best[c].v[i] = band.weight.v[i] > 0.0f ? changed : band.best[c].v[i];
+		}
 	}
 }
 

@@ -28,6 +28,13 @@ int Reflected(int i, int n);
 /// Kernels reach no farther than this, in pixels.
 const int KernelReach = 10;
 
+/// What a kernel takes of the pixel at (+dx, +dy).
+struct Tap
+{
+	int dx, dy;
+	float weight;
+};
+
 /// A kernel of sum 1 whose centre weighs nothing. Results hold KernelReach pixels inside a
 /// plane's edges; nearer to them they mean nothing.
 class Kernel
@@ -36,22 +43,25 @@ class Kernel
 		/// Gaussian along `angle` (radians) and across; equal widths make it round.
 		Kernel(double sigma_along, double sigma_across, double angle);
 
-		Plane Apply(const Plane& p) const { return Apply(p, false); }
-		/// With squared weights: variance of what Apply returns, from the variances of pixels.
-		Plane ApplySquared(const Plane& p) const { return Apply(p, true); }
+		/// p and result are of one size, as is `rows`, which is for the function's own use.
+		void Apply(const Plane& p, Plane& rows, Plane& result) const { Apply(p, false, rows, result); }
+		/// With squared weights: variance of what Apply gives, from the variances of pixels.
+		void ApplySquared(const Plane& p, Plane& rows, Plane& result) const { Apply(p, true, rows, result); }
 	private:
-		struct Tap { int dx, dy; float weight; };
 		std::vector<float> half;        // a round one in two passes: weights at 0, 1, 2, ...
-		std::vector<Tap> taps;          // a stroke
+		std::vector<Tap> taps, squares; // a stroke, and with squared weights
 
-		Plane Apply(const Plane& p, bool squared) const;
+		void Apply(const Plane& p, bool squared, Plane& rows, Plane& result) const;
 };
 
 /// Round kernels from half a pixel to four, and strokes in four directions.
 std::vector<Kernel> AllKernels();
 
-/// Gaussian average, sigma 2 pixels.
-Plane Smoothed(const Plane& p);
+/// Smooth reaches so far, in pixels.
+const int SmoothingReach = 6;
+
+/// Gaussian average, sigma 2 pixels. As with kernels, nothing holds so near to the edges.
+void Smooth(const Plane& p, Plane& rows, Plane& result);
 
 }
 
