@@ -27,29 +27,15 @@ struct BlurCost
 	bool operator()(const T* d, const T* floor_squared, const T* power, const T* curvature, const T* state, T* residual) const
 	{
 		using std::sqrt;
-		const Vec3<T> q = PlaneOfState(model, power, state, w_mm);
+		const Vec3<T> q = PlaneOfState(model, power, state, T(w_mm));
 		const Vec3<T> n = tilt_lens::LensFromPlane(q, T(1 / w_mm)).normal;
 		// The tiny constant keeps the root smooth where blur and floor both vanish.
-		residual[0] = weight * (sqrt(SquaredFootprintWidth(*d, q, n, curvature, o.P, o.gradient) + *floor_squared + T(1e-6)) - o.blur);
+		residual[0] = weight * (sqrt(SquaredFootprintWidth(*d, q, n, curvature, Lifted<T>(o.P), Lifted<T>(o.gradient)) + *floor_squared + T(1e-6)) - o.blur);
 		return true;
 	}
 };
 
 using BlurCostFunction = ceres::AutoDiffCostFunction<BlurCost, 1, 1, 1, 1, 2, 3>;
-
-/// Holds what the model does not have, and what the untilted state keeps at 0.
-void HoldUnused(LensModel model, size_t state, Unknowns& x, ceres::Problem& problem)
-{
-	double* const own = x.state[state].data();
-	if (!problem.HasParameterBlock(own))
-		return;
-	if (HasFreePlanes(model) && state == 0)
-		problem.SetManifold(own, new ceres::SubsetManifold(3, { 0, 1 }));
-	if (model == LensModel::RIGID && state == 0)
-		problem.SetParameterBlockConstant(own);
-	if (model == LensModel::RIGID && state > 0)
-		problem.SetManifold(own, new ceres::SubsetManifold(3, { 2 }));
-}
 
 void Build(const BlurFit& fit, ceres::Problem& problem, Unknowns& x, Free free, size_t state)
 {
@@ -61,44 +47,62 @@ void Build(const BlurFit& fit, ceres::Problem& problem, Unknowns& x, Free free, 
 		problem.AddResidualBlock(new BlurCostFunction(new BlurCost{ fit.model, o, weight, fit.w_mm }),
 			new ceres::HuberLoss(2.0), &x.d, &x.floor_squared, &x.power, x.curvature.data(), x.state[o.state].data());
 	}
-	problem.SetParameterLowerBound(&x.floor_squared, 0, 0);
-	for (size_t s = 0; s < x.state.size(); ++s)
-		HoldUnused(fit.model, s, x, problem);
-	if (HasFreePlanes(fit.model) || free == Free::ONE_STATE)
-		problem.SetParameterBlockConstant(&x.power);
-	if (!IsCurved(fit.model) || free != Free::EVERYTHING)
+	HoldUnused(fit.model, x, problem);
+	if (free != Free::EVERYTHING)
 		problem.SetParameterBlockConstant(x.curvature.data());
-	else if (fit.model == LensModel::BOWL)
-		problem.SetManifold(x.curvature.data(), new ceres::SubsetManifold(2, { 1 }));
 	if (free == Free::ONE_STATE)
 	{
+		problem.SetParameterBlockConstant(&x.power);
 		problem.SetParameterBlockConstant(&x.d);
 		problem.SetParameterBlockConstant(&x.floor_squared);
 	}
 }
 
-/// d(d, floor^2, curvature, q of every state) / d(all unknowns), by automatic derivatives.
-Eigen::MatrixXd PlanesByUnknowns(const BlurFit& fit, const Unknowns& x)
+}
+
+void HoldUnused(LensModel model, Unknowns& x, ceres::Problem& problem)
 {
-	using Jet = ceres::Jet<double, 4>;
+	problem.SetParameterLowerBound(&x.floor_squared, 0, 0);
+	for (size_t s = 0; s < x.state.size(); ++s)
+	{
+		double* const own = x.state[s].data();
+		if (!problem.HasParameterBlock(own))
+			continue;
+		if (HasFreePlanes(model) && s == 0)
+			problem.SetManifold(own, new ceres::SubsetManifold(3, { 0, 1 }));
+		if (model == LensModel::RIGID && s == 0)
+			problem.SetParameterBlockConstant(own);
+		if (model == LensModel::RIGID && s > 0)
+			problem.SetManifold(own, new ceres::SubsetManifold(3, { 2 }));
+	}
+	if (HasFreePlanes(model))
+		problem.SetParameterBlockConstant(&x.power);
+	if (!IsCurved(model))
+		problem.SetParameterBlockConstant(x.curvature.data());
+	else if (model == LensModel::BOWL)
+		problem.SetManifold(x.curvature.data(), new ceres::SubsetManifold(2, { 1 }));
+}
+
+Eigen::MatrixXd PlanesByUnknowns(LensModel model, const Unknowns& x, double w_mm)
+{
+	using Jet = ceres::Jet<double, 5>;
 	const int states = int(x.state.size());
-	Eigen::MatrixXd J = Eigen::MatrixXd::Zero(4 + 3 * states, 5 + 3 * states);
-	J(0, 0) = J(1, 1) = J(2, 3) = J(3, 4) = 1;
+	Eigen::MatrixXd J = Eigen::MatrixXd::Zero(5 + 3 * states, 6 + 3 * states);
+	J(0, 0) = J(1, 1) = J(2, 2) = J(3, 4) = J(4, 5) = 1;
 	for (int s = 0; s < states; ++s)
 	{
 		const StateNumbers& own = x.state[size_t(s)];
 		const Jet power(x.power, 0), state[3] = { Jet(own[0], 1), Jet(own[1], 2), Jet(own[2], 3) };
-		const Vec3<Jet> q = PlaneOfState(fit.model, &power, state, fit.w_mm);
+		const Vec3<Jet> q = PlaneOfState(model, &power, state, Jet(w_mm, 4));
 		const Jet* const rows[] = { &q.x, &q.y, &q.z };
 		for (int r = 0; r < 3; ++r)
 		{
-			J(4 + 3 * s + r, 2) = rows[r]->v[0];
-			J.block<1, 3>(4 + 3 * s + r, 5 + 3 * s) = rows[r]->v.tail<3>().transpose();
+			J(5 + 3 * s + r, 0) = rows[r]->v[4];
+			J(5 + 3 * s + r, 3) = rows[r]->v[0];
+			J.block<1, 3>(5 + 3 * s + r, 6 + 3 * s) = rows[r]->v.segment<3>(1).transpose();
 		}
 	}
 	return J;
-}
-
 }
 
 std::vector<Observation> Observe(const Task& task, const Geometry& g)
@@ -150,7 +154,7 @@ double BlurFit::Scale(const Unknowns& x) const
 	return 1.4826 * r[r.size() / 2];
 }
 
-Eigen::MatrixXd BlurFit::CovarianceOfPlanes(Unknowns x) const
+Eigen::MatrixXd BlurFit::CovarianceOfPlanes(Unknowns x, double w_sigma_mm) const
 {
 	ceres::Problem problem;
 	Build(*this, problem, x, Free::EVERYTHING, 0);
@@ -172,8 +176,11 @@ Eigen::MatrixXd BlurFit::CovarianceOfPlanes(Unknowns x) const
 	for (int k = 0; k < n; ++k)
 		free_unknowns += c(k, k) > 0;
 	const double freedom = std::max(1, problem.NumResiduals() - free_unknowns);
-	const Eigen::MatrixXd J = PlanesByUnknowns(*this, x);
-	return J * c * J.transpose() * (2 * cost / freedom);
+	Eigen::MatrixXd with_w = Eigen::MatrixXd::Zero(n + 1, n + 1);
+	with_w(0, 0) = w_sigma_mm * w_sigma_mm;
+	with_w.bottomRightCorner(n, n) = c * (2 * cost / freedom);
+	const Eigen::MatrixXd J = PlanesByUnknowns(model, x, w_mm);
+	return J * with_w * J.transpose();
 }
 
 }

@@ -9,6 +9,7 @@
 #include "lens_model.h"
 
 #include <Eigen/Core>
+#include <ceres/problem.h>
 
 #include <vector>
 
@@ -44,6 +45,13 @@ enum class Free
 	EVERYTHING   ///< field curvature too, which the others hold
 };
 
+/// Holds what the model does not have, and what the untilted state keeps at 0, of a problem's blocks.
+void HoldUnused(LensModel model, Unknowns& x, ceres::Problem& problem);
+
+/// d(w, d, floor^2, curvature, q of every state) / d(w, d, floor^2, power, curvature, numbers of every state), by
+/// automatic derivatives. w in mm.
+Eigen::MatrixXd PlanesByUnknowns(LensModel model, const Unknowns& x, double w_mm);
+
 struct BlurFit
 {
 	LensModel model;
@@ -63,9 +71,9 @@ struct BlurFit
 	/// Standard deviation of the residuals, robust: 1.4826 median |residual|, px.
 	double Scale(const Unknowns& x) const;
 
-	/// Covariance of d, floor^2, the two of `curvature` and q of every state, in that order, rescaled by
-	/// the residuals; w is held. Throws Refused when the fit is singular.
-	Eigen::MatrixXd CovarianceOfPlanes(Unknowns x) const;
+	/// Covariance of w, d, floor^2, the two of `curvature` and q of every state, in that order (mm, px), rescaled
+	/// by the residuals. w is held, and has the standard deviation given. Throws Refused when the fit is singular.
+	Eigen::MatrixXd CovarianceOfPlanes(Unknowns x, double w_sigma_mm) const;
 };
 
 }

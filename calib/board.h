@@ -37,6 +37,14 @@ struct Corner
 	double sigma = 0;   ///< standard deviation of x and of y
 };
 
+/// Brightness of an edge in a narrow strip along it (edge_profile.h).
+struct ProfileBin
+{
+	float x = 0;       ///< distance from the edge, px, dark side negative
+	float value = 0;   ///< mean, linear light, shading taken out
+	float count = 0;   ///< pixels
+};
+
 /// One edge between neighbouring inner corners, measured in its middle portion.
 struct Edge
 {
@@ -50,6 +58,8 @@ struct Edge
 	double blur_sigma = 0;
 	double offset_sigma = 0, slope_sigma = 0;
 	double low = 0, high = 0;    ///< linear light on both sides
+	double noise = 0;            ///< RMS residual of a pixel, linear light
+	std::vector<ProfileBin> profile;
 };
 
 /// Everything measured in one photograph. Corners row by row: index row * InnerColumns + column.

@@ -7,6 +7,7 @@
 #include "measure.h"
 #include "solve_blur.h"
 #include "solve_geometry.h"
+#include "solve_joint.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -144,6 +145,20 @@ void SolveExact(const Task& task, const std::string& model, Poses poses, Calibra
 	c.render = c.geometry.distortion_terms ? solve(task, c.pinhole) : c.solution;
 }
 
+/// Joint refinement; what blur alone and geometry alone say of the tilt is kept.
+void Refine(const Task& task, Refinement refinement, Calibration& c)
+{
+	c.blur_alone = c.solution.states;
+	c.geometry_alone = TiltFromGeometryAlone(task, c.geometry, c.solution);
+	if (refinement == Refinement::NONE)
+		return;
+	spdlog::info("refining geometry and lens together ({})", refinement == Refinement::EDGES ? "edges" : "photometric");
+	if (!RefineJointly(task, refinement, c.geometry, c.solution))
+		spdlog::warn("the joint refinement did not converge; geometry and blur are as solved one after the other");
+	else if (c.geometry.distortion_terms == 0)
+		c.render = c.solution;
+}
+
 }
 
 Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, double pitch_mm, const Transfer& transfer, const DetectOptions& options, const EdgeChoice& choice)
@@ -171,12 +186,15 @@ Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, doubl
 	return task;
 }
 
-Calibration Calibrate(const Task& task, const std::string& model, Poses poses)
+Calibration Calibrate(const Task& task, const std::string& model, Poses poses, Refinement refinement)
 {
 	Calibration c;
 	c.task = task;
 	if (model != "paper")
+	{
 		SolveExact(task, model, poses, c);
+		Refine(task, refinement, c);
+	}
 	else
 		c.geometry = c.pinhole = SolveGeometry(task, {});
 	WarnOfOddPhotos(task, c.geometry);

@@ -5,6 +5,7 @@
 
 #include "calibration.h"
 #include "detect.h"
+#include "joint_fit.h"
 #include "measure.h"
 #include "transfer.h"
 
@@ -37,7 +38,7 @@ enum class Poses
 /// Solves everything. `model` is "plane", "rigid", "curved", "paper", or "auto": curved where CurvatureIsSeen,
 /// else plane. The paper's model is always solved
 /// too, and only refused when it was the one asked for. Throws Refused.
-Calibration Calibrate(const Task& task, const std::string& model, Poses poses);
+Calibration Calibrate(const Task& task, const std::string& model, Poses poses, Refinement refinement = Refinement::EDGES);
 
 /// Geometry that belongs to the calibration's own solution (the paper has its own).
 const Geometry& MainGeometry(const Calibration& calibration);

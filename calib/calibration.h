@@ -9,6 +9,7 @@
 
 #include "board.h"
 #include "camera.h"
+#include "lens_model.h"
 
 #include <string>
 #include <vector>
@@ -45,6 +46,10 @@ struct Geometry
 	int distortion_terms = 0;      ///< 0 none, 1 k1, 2 k1 k2, 4 with p1 p2, 5 with k3
 	std::vector<Vec3<double>> lens_normal;         ///< the axis of the distortion, given
 	bool shared_poses = false;     ///< photograph n of every state shows the board in one pose
+	/// Where the lens centre of a state stands, seen from the untilted one, camera frame, mm: a real lens turns
+	/// about a pivot away from its pupil. Free where poses are shared (joint_fit.h), else 0. `poses` hold it already.
+	std::vector<Vec3<double>> lens_centre, lens_centre_sigma;
+	double pupil_magnification = 1, pupil_magnification_sigma = 0;   ///< camera.h; 1 in all that is rendered
 	Distortion distortion{}, distortion_sigma{};
 	std::vector<bool> principal_point_fixed;
 	std::vector<Point> principal_point, principal_point_sigma;
@@ -68,6 +73,7 @@ struct StateLens
 struct Solution
 {
 	std::string model;
+	LensModel lens = LensModel::PLANE;    ///< of the exact models
 	Estimate w_mm, aperture_diameter, focus_distance, focal_length, psf_floor_px;
 	std::vector<StateLens> states;
 	double rms_blur = 0;
@@ -77,6 +83,13 @@ struct Solution
 	std::string failure;     ///< why there is no answer; empty when there is one
 };
 
+/// What the places of edges say of the tilts (solve_joint.h); no states: nothing.
+struct GeometryAlone
+{
+	std::vector<StateLens> states;
+	Estimate pupil_magnification;
+};
+
 struct Calibration
 {
 	Task task;
@@ -84,6 +97,8 @@ struct Calibration
 	Geometry pinhole;            ///< without distortion, for a renderer that has none
 	Solution solution;           ///< of the model asked for, with `geometry`
 	Solution render;             ///< the same model with `pinhole`: the numbers of the .inc
+	std::vector<StateLens> blur_alone;      ///< the same before the joint refinement: blur, with the geometry held
+	GeometryAlone geometry_alone;
 	std::vector<Solution> compared;   ///< CompareExact's, when the model was to be chosen; else empty
 	Solution paper;              ///< the paper's model, always
 	Geometry paper_geometry;     ///< poses of the paper's stage 1

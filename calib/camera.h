@@ -38,23 +38,73 @@ inline Vec3<T> CameraFromBoard(const T* pose, double x, double y)
 	return { p[0] + pose[3], p[1] + pose[4], p[2] + pose[5] };
 }
 
-/// Pixel (u, v) of P = (x, y, z), z > 0, seen through a lens with unit normal n.
-/// The distortion belongs to the lens, so it acts about the lens axis: P is taken to
-/// the lens's own axes (BasisOfLensPlane), distorted there in units of the axial distance,
-/// taken back, and projected on the sensor. With n = e_z this is OpenCV's model with
-/// its centre at the principal point. (Measured in photos-45mm: 0.10 px instead of 0.36.)
+/// A direction in the lens's own axes after distortion, and what it came from.
+template<typename T>
+struct SeenThroughLens
+{
+	T x, y;          ///< ideal, in units of the axial distance, y down
+	Vec3<T> v;       ///< distorted, camera frame, v.n = 1
+};
+
+/// The distortion belongs to the lens, so it acts about the lens axis n: P is taken to the lens's
+/// own axes (BasisOfLensPlane), distorted there in units of the axial distance, and taken back.
+template<typename T>
+inline SeenThroughLens<T> SeeThroughLens(const T* distortion, const Vec3<T>& n, const tilt_lens::LensBasis<T>& basis, const Vec3<T>& P)
+{
+	const T depth = Dot(P, n), x = Dot(P, basis.a) / depth, y = -Dot(P, basis.b) / depth;
+	T d[2];
+	tilt_lens::Distort(distortion, x, y, d);
+	return { x, y, d[0] * basis.a - d[1] * basis.b + n };
+}
+
+/// Pixel (u, v) of P = (x, y, z), z > 0, seen through a lens with unit normal n. With n = e_z this is
+/// OpenCV's model with its centre at the principal point. (Measured in photos-45mm: 0.10 px instead of 0.36.)
+template<typename T>
+inline void Project(const T& w_px, const T* distortion, const T* principal_point, const Vec3<T>& n, const tilt_lens::LensBasis<T>& basis, const Vec3<T>& P, T* pixel)
+{
+	const Vec3<T> v = SeeThroughLens(distortion, n, basis, P).v;
+	pixel[0] = principal_point[0] + w_px * v.x / v.z;
+	pixel[1] = principal_point[1] - w_px * v.y / v.z;
+}
+
+/// Project for a lens whose exit pupil is m times as large as its entrance pupil (m 1: Project): rays leave it at
+/// angles whose tangents are 1/m of those at which they enter, from a point (m - 1) w farther from the sensor. A lens
+/// that is not tilted shows nothing of it. The principal point is that of the exit pupil.
+/// Steger, "A comprehensive and versatile camera model for cameras with tilt lenses", IJCV 2017 (image plane distance).
+template<typename T>
+inline void ProjectThroughPupils(const T& w_px, const T& pupil_magnification, const T* distortion, const T* principal_point,
+	const Vec3<T>& n, const tilt_lens::LensBasis<T>& basis, const Vec3<T>& P, T* pixel)
+{
+	const Vec3<T> v = SeeThroughLens(distortion, n, basis, P).v + (pupil_magnification - T(1)) * n;
+	pixel[0] = principal_point[0] + pupil_magnification * w_px * v.x / v.z;
+	pixel[1] = principal_point[1] - pupil_magnification * w_px * v.y / v.z;
+}
+
+template<typename T>
+inline Vec3<T> Lifted(const Vec3<double>& v) { return { T(v.x), T(v.y), T(v.z) }; }
+
+/// The same for a lens normal that is given.
 template<typename T>
 inline void Project(const T& w_px, const T* distortion, const T* principal_point, const Vec3<double>& n, const Vec3<T>& P, T* pixel)
 {
 	const tilt_lens::LensBasis<double> basis = tilt_lens::BasisOfLensPlane(n);
-	const auto lift = [](const Vec3<double>& v) { return Vec3<T>{ T(v.x), T(v.y), T(v.z) }; };
-	const Vec3<T> a = lift(basis.a), b = lift(basis.b), c = lift(n);
-	const T depth = Dot(P, c);
-	T d[2];
-	tilt_lens::Distort(distortion, Dot(P, a) / depth, -Dot(P, b) / depth, d);
-	const Vec3<T> v = d[0] * a - d[1] * b + c;
-	pixel[0] = principal_point[0] + w_px * v.x / v.z;
-	pixel[1] = principal_point[1] - w_px * v.y / v.z;
+	Project(w_px, distortion, principal_point, Lifted<T>(n), { Lifted<T>(basis.a), Lifted<T>(basis.b) }, P, pixel);
+}
+
+/// Derivative by P of the pixel's place along the picture direction (nx, ny), y down: d(nx u + ny v)/dP, px/mm.
+template<typename T>
+inline Vec3<T> PixelGradient(const T& w_px, const T* distortion, const Vec3<T>& n, const tilt_lens::LensBasis<T>& basis, const Vec3<T>& P, const T& nx, const T& ny)
+{
+	const T depth = Dot(P, n);
+	const SeenThroughLens<T> seen = SeeThroughLens(distortion, n, basis, P);
+	// By the chain rule backwards: pixel by v, v by the distorted point, that by the ideal one, that by P.
+	const T a = nx * w_px / seen.v.z, b = -ny * w_px / seen.v.z;
+	const Vec3<T> by_v{ a, b, -(a * seen.v.x + b * seen.v.y) / seen.v.z };
+	const T by_X = Dot(by_v, basis.a), by_Y = -Dot(by_v, basis.b);
+	T J[4];
+	tilt_lens::DistortJacobian(distortion, seen.x, seen.y, J);
+	const T by_x = by_X * J[0] + by_Y * J[2], by_y = by_X * J[1] + by_Y * J[3];
+	return (T(1) / depth) * (by_x * basis.a - by_y * basis.b - (by_x * seen.x + by_y * seen.y) * n);
 }
 
 }

@@ -23,7 +23,7 @@ namespace
 
 struct Options
 {
-	std::string board, transfer = "srgb", model = "auto", poses = "auto", out;
+	std::string board, transfer = "srgb", model = "auto", poses = "auto", refine = "edges", out;
 	double square = 0, pitch = 0;
 	std::vector<std::string> untilted, tilted;
 	DetectOptions detect;
@@ -76,6 +76,17 @@ Poses ParsePoses(const std::string& text)
 	throw UsageError(fmt::format("--poses {}: give auto, shared or own", text));
 }
 
+Refinement ParseRefinement(const std::string& text)
+{
+	if (text == "none")
+		return Refinement::NONE;
+	if (text == "edges")
+		return Refinement::EDGES;
+	if (text == "photometric")
+		return Refinement::PHOTOMETRIC;
+	throw UsageError(fmt::format("--refine {}: give none, edges or photometric", text));
+}
+
 void Run(const Options& o)
 {
 	const auto start = std::chrono::steady_clock::now();
@@ -83,6 +94,7 @@ void Run(const Options& o)
 	const Transfer transfer = ParseTransfer(o.transfer);
 	CheckModel(o.model);
 	const Poses poses = ParsePoses(o.poses);
+	const Refinement refinement = ParseRefinement(o.refine);
 	if (!(o.pitch > 0 && o.pitch < 1))
 		throw UsageError(fmt::format("--pitch {}: give the distance of pixel centres on the sensor in mm, such as 0.00655", o.pitch));
 	if (o.edges.most != 0 && o.edges.most < FEWEST_EDGES)
@@ -90,7 +102,7 @@ void Run(const Options& o)
 	const std::vector<StateFiles> states = States(o);
 	PrepareFolder(o.out);
 
-	const Calibration c = Calibrate(MeasureAll(states, board, o.pitch, transfer, o.detect, o.edges), o.model, poses);
+	const Calibration c = Calibrate(MeasureAll(states, board, o.pitch, transfer, o.detect, o.edges), o.model, poses, refinement);
 	WriteEverything(c, transfer, o.out);
 	fmt::print("{}", SummaryTable(c));
 	fmt::print("written to {}\n", o.out);
@@ -113,6 +125,8 @@ void AddCalibrate(CLI::App& app)
 		"paper: Baba, Nakane, Hiura (3), (4), (1)")->capture_default_str();
 	c->add_option("--transfer", o->transfer, "Transfer curve of 8 and 16 bit pictures: srgb, linear or a gamma; OpenEXR is linear")->capture_default_str();
 	c->add_option("--poses", o->poses, "shared: photograph n shows the board in one pose in every state; own: not; auto: see for itself")->capture_default_str();
+	c->add_option("--refine", o->refine, "Last step, all numbers together: edges: places and blur widths of the edges; photometric: the brightness across them; "
+		"none: geometry first, then blur")->capture_default_str();
 	c->add_option("--edges-per-photo", o->edges.most, "Measure only N edges of every photograph, spread evenly over the board and both directions: "
 		"faster, less accurate. 0: all")->capture_default_str();
 	c->add_flag("--any-orientation", o->detect.any_orientation, "Accept a board that stands upside down (a mirrored picture looks the same)");

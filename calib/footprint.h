@@ -25,13 +25,12 @@
 namespace tiltcal
 {
 
-/// Square of the width (px) across an edge at P (camera frame, mm) of the image of a point there. d mm, q 1/mm, n the
+/// Square of the width (px) across an edge at p (camera frame, mm) of the image of a point there. d mm, q 1/mm, n the
 /// unit lens normal. `curvature`: C, the mean of the tangential and the sagittal field curvature, and half their
-/// difference, C_t - C and C - C_s; 1/mm. `gradient`: G, px/mm. Squared, because that is smooth where the width is 0.
+/// difference, C_t - C and C - C_s; 1/mm. G px/mm. Squared, because that is smooth where the width is 0.
 template<typename T>
-inline T SquaredFootprintWidth(const T& d, const Vec3<T>& q, const Vec3<T>& n, const T* curvature, const Vec3<double>& P, const Vec3<double>& gradient)
+inline T SquaredFootprintWidth(const T& d, const Vec3<T>& q, const Vec3<T>& n, const T* curvature, const Vec3<T>& p, const Vec3<T>& G)
 {
-	const Vec3<T> p{ T(P.x), T(P.y), T(P.z) }, G{ T(gradient.x), T(gradient.y), T(gradient.z) };
 	const Vec3<T> across = G - Dot(G, n) * n;
 	const T depth = Dot(p, n);
 	const Vec3<T> aside = p - depth * n;   // r times the unit vector along the radius
@@ -40,6 +39,9 @@ inline T SquaredFootprintWidth(const T& d, const Vec3<T>& q, const Vec3<T>& n, c
 	const Vec3<T> moved = sagittal * across - (T(2) * curvature[1] * Dot(aside, across) / depth) * aside;
 	return d * d * Dot(moved, moved);
 }
+
+/// The edge's own normal in the picture: (nx, ny), turned by its slope; y down.
+Point EdgeNormal(const Edge& edge);
 
 /// G of an edge of state `state` at P: d(nx u + ny v)/dP, px/mm, (nx, ny) its fitted normal. The distortion, which
 /// stretches blur as it stretches the picture, is in it.

@@ -33,11 +33,11 @@ using StateNumbers = std::array<double, 3>;
 
 /// q of a state, 1/mm. `power` is the common 1/f (1/mm; RIGID only), w in mm.
 template<typename T>
-inline Vec3<T> PlaneOfState(LensModel model, const T* power, const T* state, double w_mm)
+inline Vec3<T> PlaneOfState(LensModel model, const T* power, const T* state, const T& w_mm)
 {
 	if (HasFreePlanes(model))
 		return { state[0], state[1], state[2] };
-	return tilt_lens::PlaneFromLens(tilt_lens::Normalized(Vec3<T>{ state[0], state[1], T(1) }), *power, T(1 / w_mm));
+	return tilt_lens::PlaneFromLens(tilt_lens::Normalized(Vec3<T>{ state[0], state[1], T(1) }), *power, T(1) / w_mm);
 }
 
 /// The numbers of the state whose plane of focus is q; RIGID keeps only q's lens normal.

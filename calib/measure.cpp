@@ -3,6 +3,7 @@
 #include "measure.h"
 
 #include "edge_fit.h"
+#include "edge_profile.h"
 #include "image_io.h"
 #include "spread_order.h"
 
@@ -228,6 +229,8 @@ bool MeasureEdge(const cv::Mat& grey, const Grid& grid, int i, int j, bool along
 	edge.slope_sigma = fit.slope_sigma;
 	edge.low = fit.low;
 	edge.high = fit.high;
+	edge.noise = fit.rms;
+	edge.profile = EdgeProfile(samples, fit);
 	return true;
 }
 

@@ -4,9 +4,9 @@
 
 #include "blur_fit.h"
 #include "error.h"
+#include "fill_solution.h"
 #include "held_out.h"
 #include "search_focus.h"
-#include "tilt_angles.h"
 
 #include <fmt/format.h>
 
@@ -21,55 +21,6 @@ namespace
 
 /// A model with more unknowns must foretell photographs better by 1 %: by chance alone a bowl does by some thousandths.
 const double WORTH_IT = 0.99;
-
-/// mm for the image distance, 4x4 covariance of (q, w) per state.
-void FillSolution(const Task& task, const Geometry& g, const BlurFit& fit, const Unknowns& x, const Eigen::MatrixXd& c, Solution& out)
-{
-	const double w = g.w_px * task.pitch_mm, w_sigma = g.w_px_sigma * task.pitch_mm;
-	out.w_mm = { w, w_sigma };
-	out.aperture_diameter = { x.d, std::sqrt(c(0, 0)) };
-	const double floor = std::sqrt(x.floor_squared), floor_squared_sigma = std::sqrt(c(1, 1));
-	out.psf_floor_px = { floor, floor_squared_sigma / std::max(2 * floor, std::sqrt(floor_squared_sigma)) };
-	const double C = x.curvature[0], half = x.curvature[1];
-	out.field_curvature = { C, std::sqrt(c(2, 2)) };
-	out.tangential_curvature = { C + half, std::sqrt(std::max(c(2, 2) + 2 * c(2, 3) + c(3, 3), 0.0)) };
-	out.sagittal_curvature = { C - half, std::sqrt(std::max(c(2, 2) - 2 * c(2, 3) + c(3, 3), 0.0)) };
-	for (size_t s = 0; s < x.state.size(); ++s)
-	{
-		Eigen::Matrix4d block = Eigen::Matrix4d::Zero();
-		const int at = 4 + 3 * int(s);
-		block.topLeftCorner<3, 3>() = c.block<3, 3>(at, at);
-		block(3, 3) = w_sigma * w_sigma;
-		StateLens lens;
-		FillStateLens(fit.Plane(x, s), w, block, lens);
-		out.states.push_back(lens);
-	}
-	double total = 0;
-	for (const Observation& o : fit.observations)
-	{
-		const double r = fit.Residual(o, x);
-		out.states[o.state].rms_blur += r * r;
-		++out.states[o.state].edges;
-		total += r * r;
-	}
-	for (StateLens& lens : out.states)
-		lens.rms_blur = std::sqrt(lens.rms_blur / std::max(lens.edges, 1));
-	out.rms_blur = std::sqrt(total / double(fit.observations.size()));
-	out.focus_distance = out.states[0].focus_distance;
-	out.focal_length = out.states[0].focal_length;
-}
-
-void RefuseUndetermined(const Task& task, const Solution& s)
-{
-	if (!(s.aperture_diameter.sigma < 0.1 * s.aperture_diameter.value) || !(s.states[0].q_sigma.z < 0.05 * std::abs(s.states[0].q.z)))
-		throw Refused(fmt::format("the untilted photographs do not determine aperture ({:.2f} +- {:.2f} mm) and focus: "
-			"photograph inclined boards whose blur changes clearly along the board", s.aperture_diameter.value, s.aperture_diameter.sigma));
-	for (size_t k = 1; k < s.states.size(); ++k)
-		if (!(s.states[k].lens_tilt.sigma < 0.5))
-			throw Refused(fmt::format("state {}: its photographs do not determine the tilt ({:.2f} +- {:.2f} degrees): "
-				"photograph the board inclined, sharp in one part and blurred in another", task.states[k].name,
-				s.states[k].lens_tilt.value, s.states[k].lens_tilt.sigma));
-}
 
 void RefuseTooFewEdges(const Task& task, const std::vector<Observation>& observations)
 {
@@ -126,7 +77,7 @@ Solution SolutionOf(LensModel model, const char* name, const Task& task, const G
 	const BlurFit fit{ model, f.observations, geometry.w_px * task.pitch_mm, f.model_sigma };
 	Solution solution;
 	solution.model = name;
-	FillSolution(task, geometry, fit, f.x, fit.CovarianceOfPlanes(f.x), solution);
+	FillSolution(task, geometry, fit, f.x, fit.CovarianceOfPlanes(f.x, geometry.w_px_sigma * task.pitch_mm), solution);
 	for (size_t s = 0; s < f.by_power.size(); ++s)
 		solution.states[s].chosen_by_power = f.by_power[s];
 	RefuseUndetermined(task, solution);

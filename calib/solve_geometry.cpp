@@ -90,9 +90,6 @@ void Initialise(const Task& task, Geometry& g)
 	}
 }
 
-/// The block that holds a photograph's pose.
-Pose& PoseOf(Geometry& g, size_t s, size_t p) { return g.poses[g.shared_poses ? 0 : s][p]; }
-
 void Build(const Task& task, Geometry& g, double model_sigma, ceres::Problem& problem)
 {
 	for (size_t s = 0; s < task.states.size(); ++s)
@@ -106,20 +103,6 @@ void Build(const Task& task, Geometry& g, double model_sigma, ceres::Problem& pr
 				// or one taken for another must not bend the camera.
 				problem.AddResidualBlock(cost, new ceres::HuberLoss(8.0), &g.w_px, g.distortion.data(), g.principal_point[s].data(), PoseOf(g, s, p).data());
 			}
-}
-
-/// Keeps at 0 what the distortion model does not contain.
-void HoldDistortion(Geometry& g, ceres::Problem& problem)
-{
-	enum { K1, K2, P1, P2, K3 };
-	switch (g.distortion_terms)
-	{
-	case 0: problem.SetParameterBlockConstant(g.distortion.data()); break;
-	case 1: problem.SetManifold(g.distortion.data(), new ceres::SubsetManifold(5, { K2, P1, P2, K3 })); break;
-	case 2: problem.SetManifold(g.distortion.data(), new ceres::SubsetManifold(5, { P1, P2, K3 })); break;
-	case 4: problem.SetManifold(g.distortion.data(), new ceres::SubsetManifold(5, { K3 })); break;
-	default: break;
-	}
 }
 
 void Solve(ceres::Problem& problem)
@@ -244,6 +227,19 @@ bool Fit(const Task& task, double model_sigma, Geometry& g)
 
 }
 
+void HoldDistortion(Geometry& g, ceres::Problem& problem)
+{
+	enum { K1, K2, P1, P2, K3 };
+	switch (g.distortion_terms)
+	{
+	case 0: problem.SetParameterBlockConstant(g.distortion.data()); break;
+	case 1: problem.SetManifold(g.distortion.data(), new ceres::SubsetManifold(5, { K2, P1, P2, K3 })); break;
+	case 2: problem.SetManifold(g.distortion.data(), new ceres::SubsetManifold(5, { P1, P2, K3 })); break;
+	case 4: problem.SetManifold(g.distortion.data(), new ceres::SubsetManifold(5, { K3 })); break;
+	default: break;
+	}
+}
+
 Point Reproject(const Task& task, const Geometry& g, size_t state, size_t photo, double column, double row)
 {
 	const Vec3<double> P = CameraFromBoard(g.poses[state][photo].data(), task.board.X(column), task.board.Y(row));
@@ -289,6 +285,8 @@ Geometry SolveGeometry(const Task& task, const GeometryOptions& options)
 	g.shared_poses = options.shared_poses;
 	g.lens_normal = options.lens_normal;
 	g.lens_normal.resize(task.states.size(), Vec3<double>{ 0, 0, 1 });
+	g.lens_centre.assign(task.states.size(), Vec3<double>{ 0, 0, 0 });
+	g.lens_centre_sigma = g.lens_centre;
 	g.principal_point_fixed.assign(task.states.size(), false);
 	Initialise(task, g);
 	bool regular = Fit(task, FIRST_MODEL_SIGMA, g);

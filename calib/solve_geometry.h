@@ -5,6 +5,8 @@
 
 #include "calibration.h"
 
+#include <ceres/problem.h>
+
 namespace tiltcal
 {
 
@@ -34,6 +36,12 @@ Geometry SolveGeometry(const Task& task, const GeometryOptions& options);
 /// than 1.5 %: coefficients that only fit noise spoil the picture beyond the board.
 /// `options.terms` is not used.
 Geometry SelectGeometry(const Task& task, GeometryOptions options);
+
+/// The block that holds a photograph's pose.
+inline Pose& PoseOf(Geometry& g, size_t state, size_t photo) { return g.poses[g.shared_poses ? 0 : state][photo]; }
+
+/// Keeps at 0 what the distortion model does not contain.
+void HoldDistortion(Geometry& geometry, ceres::Problem& problem);
 
 /// Fills photo_rms and rms.
 void MeasureReprojection(const Task& task, Geometry& geometry);

@@ -82,6 +82,30 @@ std::string Comparison(const Calibration& c)
 	return out;
 }
 
+/// The tilts as told by blur, by geometry and by both.
+std::string Tellers(const Calibration& c)
+{
+	std::string out = "\nwhat tells the tilt:\n";
+	const auto row = [&](const char* name, const std::vector<StateLens>& states)
+	{
+		out += fmt::format("  {:<14}", name);
+		for (size_t s = 1; s < states.size(); ++s)
+			out += fmt::format("   {} {} deg towards {}", c.task.states[s].name, PlusMinus(states[s].lens_tilt, 3), PlusMinus(states[s].tilt_direction, 2));
+		out += states.empty() ? "   nothing\n" : "\n";
+	};
+	row("blur alone", c.blur_alone);
+	row("geometry alone", c.geometry_alone.states);
+	row("jointly", c.solution.states);
+	if (!c.geometry_alone.states.empty())
+		out += fmt::format("  geometry alone sees a pupil magnification of {}\n", PlusMinus(c.geometry_alone.pupil_magnification, 3));
+	for (size_t s = 1; c.geometry.shared_poses && s < c.geometry.lens_centre.size(); ++s)
+	{
+		const Vec3<double>&at = c.geometry.lens_centre[s], &sigma = c.geometry.lens_centre_sigma[s];
+		out += fmt::format("  the lens centre moved by ({:.3f}, {:.3f}, {:.3f}) +- ({:.3f}, {:.3f}, {:.3f}) mm in {}\n", at.x, at.y, at.z, sigma.x, sigma.y, sigma.z, c.task.states[s].name);
+	}
+	return out;
+}
+
 /// One row per edge: what the plot shows, and what a reader needs to look further.
 std::string BlurCsv(const Calibration& c, size_t s)
 {
@@ -137,6 +161,8 @@ std::string SummaryTable(const Calibration& c)
 	out += fmt::format("; blur {:.3f} px RMS\n", c.solution.rms_blur);
 	if (c.solution.model == "curved")
 		out += CurvatureLine(c.solution);
+	if (!c.blur_alone.empty() && c.task.states.size() > 1)
+		out += Tellers(c);
 	if (!c.compared.empty())
 		out += Comparison(c);
 	return out;

@@ -31,15 +31,16 @@ inline void Distort(const T* k, const T& x, const T& y, T* image)
 }
 
 /// The derivative of Distort by (x, y), row by row: { dX/dx, dX/dy, dY/dx, dY/dy }.
-inline void DistortJacobian(const double* k, double x, double y, double* jacobian)
+template<typename T>
+inline void DistortJacobian(const T* k, const T& x, const T& y, T* jacobian)
 {
-	const double r2 = x * x + y * y;
-	const double radial = 1.0 + r2 * (k[0] + r2 * (k[1] + r2 * k[4]));
-	const double slope = 2.0 * (k[0] + r2 * (2.0 * k[1] + r2 * 3.0 * k[4]));
-	jacobian[0] = radial + slope * x * x + 2.0 * k[2] * y + 6.0 * k[3] * x;
-	jacobian[1] = slope * x * y + 2.0 * k[2] * x + 2.0 * k[3] * y;
+	const T r2 = x * x + y * y;
+	const T radial = T(1) + r2 * (k[0] + r2 * (k[1] + r2 * k[4]));
+	const T slope = T(2) * (k[0] + r2 * (T(2) * k[1] + r2 * T(3) * k[4]));
+	jacobian[0] = radial + slope * x * x + T(2) * k[2] * y + T(6) * k[3] * x;
+	jacobian[1] = slope * x * y + T(2) * k[2] * x + T(2) * k[3] * y;
 	jacobian[2] = jacobian[1];
-	jacobian[3] = radial + slope * y * y + 6.0 * k[2] * y + 2.0 * k[3] * x;
+	jacobian[3] = radial + slope * y * y + T(6) * k[2] * y + T(2) * k[3] * x;
 }
 
 /// The ideal point of the image point (X, Y), by Newton's method from the point

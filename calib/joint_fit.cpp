@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "joint_fit.h"
+
+#include "edge_cost.h"
+#include "solve_geometry.h"
+
+#include <ceres/ceres.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tiltcal
+{
+
+namespace
+{
+
+static_assert(sizeof(Vec3<double>) == 3 * sizeof(double), "a block of three numbers");
+
+/// The blocks of one edge, in EdgeModel's order.
+std::vector<double*> Blocks(Geometry& g, Unknowns& x, size_t s, size_t p)
+{
+	return { &g.w_px, g.distortion.data(), g.principal_point[s].data(), PoseOf(g, s, p).data(),
+		&x.d, &x.floor_squared, &x.power, x.curvature.data(), x.state[s].data(), &g.lens_centre[s].x, &g.pupil_magnification };
+}
+
+template<typename Each>
+void ForEachEdge(const Task& task, Each each)
+{
+	for (size_t s = 0; s < task.states.size(); ++s)
+		for (size_t p = 0; p < task.states[s].photos.size(); ++p)
+			for (const Edge& e : task.states[s].photos[p].edges)
+				each(s, p, e);
+}
+
+EdgeWeights WeightsOf(const JointFit& fit, const Edge& e)
+{
+	return { 1 / std::hypot(e.offset_sigma, fit.error.offset), fit.geometry_alone ? 0 : 1 / std::hypot(e.blur_sigma, fit.error.blur) };
+}
+
+ceres::CostFunction* CostOf(const JointFit& fit, const Edge& e, const Vec3<double>& axis)
+{
+	const EdgeModel edge = MakeEdgeModel(fit.task, fit.model, e, axis, fit.geometry_alone);
+	const EdgeWeights weights = WeightsOf(fit, e);
+	if (fit.kind == Refinement::PHOTOMETRIC && !e.profile.empty() && !fit.geometry_alone)
+		return NewPhotometricCost(edge, e, weights);
+	return NewEdgeCost(edge, e.blur, weights);
+}
+
+void Build(const JointFit& fit, Geometry& g, Unknowns& x, ceres::Problem& problem)
+{
+	ForEachEdge(fit.task, [&](size_t s, size_t p, const Edge& e)
+	{
+		ceres::CostFunction* cost = CostOf(fit, e, g.lens_normal[s]);
+		// A block of n standard normal residuals has the norm sqrt(n).
+		problem.AddResidualBlock(cost, new ceres::HuberLoss(2.5 * std::sqrt(double(cost->num_residuals()))), Blocks(g, x, s, p));
+	});
+	HoldDistortion(g, problem);
+	HoldUnused(fit.model, x, problem);
+	for (size_t s = 0; s < g.principal_point.size(); ++s)
+		if (g.principal_point_fixed[s])
+			problem.SetParameterBlockConstant(g.principal_point[s].data());
+	for (size_t s = 0; s < g.lens_centre.size(); ++s)
+		if (s == 0 || !g.shared_poses)
+			problem.SetParameterBlockConstant(&g.lens_centre[s].x);
+	if (!fit.geometry_alone || !g.shared_poses)
+		problem.SetParameterBlockConstant(&g.pupil_magnification);
+	if (!fit.geometry_alone)
+		return;
+	for (double* block : { &x.d, &x.floor_squared, &x.power, x.curvature.data() })
+		problem.SetParameterBlockConstant(block);
+	problem.SetParameterBlockConstant(x.state[0].data());
+	// Of a state's numbers the tilt alone is seen: q_z hardly moves the lens normal.
+	for (size_t s = 1; s < x.state.size(); ++s)
+		problem.SetManifold(x.state[s].data(), new ceres::SubsetManifold(3, { 2 }));
+}
+
+/// Poses that are shared stand in every state, from its own lens centre.
+void SpreadPoses(Geometry& g)
+{
+	if (!g.shared_poses)
+		return;
+	for (size_t s = 1; s < g.poses.size(); ++s)
+		for (size_t p = 0; p < g.poses[s].size(); ++p)
+		{
+			Pose& pose = g.poses[s][p] = g.poses[0][p];
+			pose[3] -= g.lens_centre[s].x;
+			pose[4] -= g.lens_centre[s].y;
+			pose[5] -= g.lens_centre[s].z;
+			if (!g.pose_sigmas.empty())
+				g.pose_sigmas[s][p] = g.pose_sigmas[0][p];
+		}
+}
+
+/// Standard deviations of one block, 0 where it is held.
+void BlockSigmas(const ceres::Covariance& covariance, const ceres::Problem& problem, const double* block, double scale, int n, double* sigma)
+{
+	std::vector<double> c(static_cast<size_t>(n * n), 0);
+	if (!problem.IsParameterBlockConstant(block))
+		covariance.GetCovarianceBlock(block, block, c.data());
+	for (int i = 0; i < n; ++i)
+		sigma[i] = std::sqrt(std::max(c[static_cast<size_t>(i * n + i)] * scale, 0.0));
+}
+
+}
+
+std::vector<std::array<double, 2>> JointFit::Residuals(const Geometry& geometry, const Unknowns& x) const
+{
+	Geometry g = geometry;
+	Unknowns y = x;
+	std::vector<std::array<double, 2>> all;
+	ForEachEdge(task, [&](size_t s, size_t p, const Edge& e)
+	{
+		const std::vector<double*> b = Blocks(g, y, s, p);
+		double seen[2] = { 1e9, 1e9 };
+		MakeEdgeModel(task, model, e, g.lens_normal[s], geometry_alone)(b[0], b[1], b[2], b[3], b[4], b[5], b[6], b[7], b[8], b[9], b[10], seen);
+		all.push_back({ seen[0], seen[1] - e.blur });
+	});
+	return all;
+}
+
+bool JointFit::Minimise(Geometry& g, Unknowns& x) const
+{
+	ceres::Problem problem;
+	Build(*this, g, x, problem);
+	ceres::Solver::Options options;
+	options.linear_solver_type = ceres::DENSE_SCHUR;
+	options.max_num_iterations = 60;
+	options.function_tolerance = 1e-9;
+	options.num_threads = 2;
+	options.logging_type = ceres::SILENT;
+	ceres::Solver::Summary summary;
+	ceres::Solve(options, &problem, &summary);
+	x.d = std::abs(x.d);
+	SpreadPoses(g);
+	return summary.IsSolutionUsable();
+}
+
+bool JointFit::Covariance(Geometry& g, Unknowns& x, Eigen::MatrixXd& out) const
+{
+	ceres::Problem problem;
+	Build(*this, g, x, problem);
+	ceres::Covariance::Options options;
+	options.algorithm_type = ceres::SPARSE_QR;   // fails on a singular problem, which is the answer wanted there
+	ceres::Covariance covariance(options);
+	std::vector<const double*> lens{ &g.w_px, &x.d, &x.floor_squared, &x.power, x.curvature.data() };
+	for (const StateNumbers& state : x.state)
+		lens.push_back(state.data());
+	std::vector<std::pair<const double*, const double*>> pairs;
+	const auto want = [&](const double* a, const double* b)
+	{
+		if (!problem.IsParameterBlockConstant(a) && !problem.IsParameterBlockConstant(b))
+			pairs.emplace_back(a, b);
+	};
+	for (size_t i = 0; i < lens.size(); ++i)
+		for (size_t j = i; j < lens.size(); ++j)
+			want(lens[i], lens[j]);
+	want(g.distortion.data(), g.distortion.data());
+	want(&g.pupil_magnification, &g.pupil_magnification);
+	for (size_t s = 0; s < g.poses.size(); ++s)
+	{
+		want(g.principal_point[s].data(), g.principal_point[s].data());
+		want(&g.lens_centre[s].x, &g.lens_centre[s].x);
+		for (size_t p = 0; p < g.poses[s].size() && (s == 0 || !g.shared_poses); ++p)
+			want(g.poses[s][p].data(), g.poses[s][p].data());
+	}
+	if (!covariance.Compute(pairs, &problem))
+		return false;
+
+	double cost = 0;
+	problem.Evaluate(ceres::Problem::EvaluateOptions(), &cost, nullptr, nullptr, nullptr);
+	const double scale = 2 * cost / std::max(problem.NumResiduals() - problem.NumParameters(), 1);
+	const int n = 6 + 3 * int(x.state.size());
+	Eigen::MatrixXd c = Eigen::MatrixXd::Zero(n, n);
+	for (size_t i = 0, row = 0; i < lens.size(); row += size_t(problem.ParameterBlockSize(lens[i])), ++i)
+		for (size_t j = i, column = row; j < lens.size(); column += size_t(problem.ParameterBlockSize(lens[j])), ++j)
+		{
+			if (problem.IsParameterBlockConstant(lens[i]) || problem.IsParameterBlockConstant(lens[j]))
+				continue;
+			Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> block(problem.ParameterBlockSize(lens[i]), problem.ParameterBlockSize(lens[j]));
+			covariance.GetCovarianceBlock(lens[i], lens[j], block.data());
+			c.block(long(row), long(column), block.rows(), block.cols()) = block;
+			c.block(long(column), long(row), block.cols(), block.rows()) = block.transpose();
+		}
+	c *= scale;
+	g.w_px_sigma = std::sqrt(c(0, 0));
+	c.row(0) *= task.pitch_mm;
+	c.col(0) *= task.pitch_mm;
+	const Eigen::MatrixXd J = PlanesByUnknowns(model, x, g.w_px * task.pitch_mm);
+	out = J * c * J.transpose();
+
+	BlockSigmas(covariance, problem, g.distortion.data(), scale, 5, g.distortion_sigma.data());
+	BlockSigmas(covariance, problem, &g.pupil_magnification, scale, 1, &g.pupil_magnification_sigma);
+	for (size_t s = 0; s < g.poses.size(); ++s)
+	{
+		BlockSigmas(covariance, problem, g.principal_point[s].data(), scale, 2, g.principal_point_sigma[s].data());
+		BlockSigmas(covariance, problem, &g.lens_centre[s].x, scale, 3, &g.lens_centre_sigma[s].x);
+		for (size_t p = 0; p < g.poses[s].size() && (s == 0 || !g.shared_poses); ++p)
+			BlockSigmas(covariance, problem, g.poses[s][p].data(), scale, 6, g.pose_sigmas[s][p].data());
+	}
+	SpreadPoses(g);
+	return true;
+}
+
+}
