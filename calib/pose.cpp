@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -23,6 +24,10 @@ const double DEGREES = 180 / 3.14159265358979323846;
 
 /// Nobody measures points in a photograph better; two poses that differ by less cannot be told apart.
 const double LEAST_NOISE_PX = 0.1;
+
+/// A point is called a mistake beyond so many robust standard deviations, and never below a pixel:
+/// less may be what the calibrated lens leaves over.
+const double FAR_OFF_SIGMAS = 6, FAR_OFF_PX = 1;
 
 void RefuseFew(const std::vector<PosePoint>& points, const std::string& file)
 {
@@ -101,7 +106,7 @@ CameraPose Finish(const PoseFit& fit, const PoseMinimum& best, double scale, dou
 	for (size_t i = 0; i < points.size(); ++i)
 	{
 		sum += pose.residuals[i].squaredNorm();
-		pose.outliers += pose.residuals[i].norm() > fit.LossBound(scale);
+		pose.outliers += pose.residuals[i].norm() > std::max(FAR_OFF_SIGMAS * scale, FAR_OFF_PX);
 		if (pose.residuals[i].norm() > pose.residuals[pose.worst].norm())
 			pose.worst = i;
 	}
@@ -143,7 +148,7 @@ CameraPose SolvePose(const StateCamera& camera, const std::vector<PosePoint>& po
 	RefuseAmbiguous(fit, minima, std::max(noise, LEAST_NOISE_PX), n, file);
 	const CameraPose pose = Finish(fit, best, scale, noise, points, file);
 	if (pose.outliers > 0)
-		spdlog::warn("{}: {} of {} points are far off and count less; measure again line {} ({:.2f} px)", file, pose.outliers, n, points[pose.worst].line,
+		spdlog::warn("{}: {} of {} points are far off and hardly count; measure again line {} ({:.2f} px)", file, pose.outliers, n, points[pose.worst].line,
 			pose.residuals[pose.worst].norm());
 	return pose;
 }

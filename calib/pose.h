@@ -29,7 +29,7 @@ struct CameraPose
 	double rms = 0;                                             ///< px, sqrt(mean(dx^2 + dy^2))
 	double misfit = 0;                                          ///< sum of the squared residuals as the fit weighs them, px^2
 	size_t worst = 0;                                           ///< index of the largest residual
-	int outliers = 0;                                           ///< points so far off that the fit counts them less
+	int outliers = 0;                                           ///< points too far off to be noise; the fit hardly counts them
 };
 
 /// Fits the pose: closed-form starts (SQPnP, RANSAC, the mirror image about the line of sight that

@@ -204,8 +204,6 @@ double PoseFit::RobustScale(const PoseMinimum& m) const
 	return std::max(LEAST_SCALE_PX, lengths[lengths.size() / 2] / RAYLEIGH_MEDIAN * std::sqrt(n / (n - 3)));
 }
 
-double PoseFit::LossBound(double scale_px) const { return LOSS_SIGMAS * scale_px; }
-
 std::vector<PoseMinimum> PoseFit::Minima(double& scale_px) const
 {
 	std::vector<PoseMinimum> found;
@@ -225,7 +223,7 @@ std::vector<PoseMinimum> PoseFit::Minima(double& scale_px) const
 	scale_px = RobustScale(found[0]);
 	std::vector<PoseMinimum> minima;
 	for (PoseMinimum m : found)
-		if (Refine(LossBound(scale_px), m))
+		if (Refine(LOSS_SIGMAS * scale_px, m))
 			minima.push_back(m);
 	std::sort(minima.begin(), minima.end(), by_misfit);
 	return minima;
@@ -235,7 +233,7 @@ bool PoseFit::Covariance(const PoseMinimum& m, double scale_px, Eigen::Matrix<do
 {
 	Blocks blocks(m);
 	ceres::Problem problem;
-	Build(camera, normal, points, LossBound(scale_px), blocks, problem);
+	Build(camera, normal, points, LOSS_SIGMAS * scale_px, blocks, problem);
 	ceres::Covariance::Options options;
 	options.algorithm_type = ceres::DENSE_SVD;
 	ceres::Covariance computed(options);

@@ -47,9 +47,6 @@ public:
 	Eigen::Vector3d ToWorld(const Eigen::Vector3d& normalised) const { return centroid + spread * normalised; }
 	double Spread() const { return spread; }
 
-	/// Longer residuals count less than by their square, px.
-	double LossBound(double scale_px) const;
-
 private:
 	std::vector<PoseMinimum> Starts() const;
 	PoseMinimum MirroredAboutSight(const PoseMinimum& minimum) const;

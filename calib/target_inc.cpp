@@ -47,15 +47,17 @@ std::string TargetInc(const TargetPage& page)
 		out += Number("Circle_Diameter", t.circle_diameter, "mm");
 	out += Number("Left", x(0), "mm, the page's edges") + Number("Right", x(page.width), "mm") + Number("Bottom", y(page.height), "mm") + Number("Top", y(0), "mm");
 
+	// Beside every pigment: a union's finish does not reach parts that have a pigment of their own.
+	out += "#declare TiltCal_Target_Finish = finish { emission 1 ambient 0 diffuse 0 };\n";
 	out += "\n#declare TiltCal_Target = union {\n\t// The paper: 0.001 mm behind the pattern, which no picture can show.\n\t"
-		+ Polygon(x(0), y(page.height), x(page.width), y(0), "0.001") + " pigment { color rgb TiltCal_Target_White } }\n\tunion {\n";
+		+ Polygon(x(0), y(page.height), x(page.width), y(0), "0.001") + " pigment { color rgb TiltCal_Target_White } finish { TiltCal_Target_Finish } }\n\tunion {\n";
 	if (t.IsCheckerboard())
 		for (const PagePoint& p : BlackSquares(page))
 			out += "\t\t" + Polygon(x(p.x), y(p.y + t.square), x(p.x + t.square), y(p.y), "0") + " }\n";
 	else
 		for (const PagePoint& p : CircleCentres(page))
 			out += fmt::format("\t\tdisc {{ <{:.10g}, {:.10g}, 0>, z, {:.10g} }}\n", x(p.x), y(p.y), 0.5 * t.circle_diameter);
-	return out + "\t\tpigment { color rgb TiltCal_Target_Black }\n\t}\n\tfinish { emission 1 ambient 0 diffuse 0 }\n}\n";
+	return out + "\t\tpigment { color rgb TiltCal_Target_Black } finish { TiltCal_Target_Finish }\n\t}\n}\n";
 }
 
 }
