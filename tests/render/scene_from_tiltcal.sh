@@ -34,8 +34,7 @@ target)
 	done
 	;;
 pose)
-	# OpenCV's camera in, a camera block out, in a scene of centimetres; OpenCV says where the markers are. Without an
-	# aperture the camera is a pinhole, with it the markers are blurred about the same places.
+	# OpenCV's camera in, a camera block out, in a scene of centimetres; OpenCV says where the markers are.
 	run "$markers" make
 	run "$tiltcal" import camera.yml --pitch 0.04 --out camera.json
 	run "$tiltcal" pose --calibration camera.json --points points.csv --unit-mm 10 --out camera.inc
