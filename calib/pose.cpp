@@ -23,7 +23,9 @@ namespace
 const double DEGREES = 180 / 3.14159265358979323846;
 
 /// Nobody measures points in a photograph better; two poses that differ by less cannot be told apart.
-const double LEAST_NOISE_PX = 0.1;
+/// Fewer than 6 points say nothing about their own noise: they may have been clicked by hand.
+const double LEAST_NOISE_PX = 0.1, LEAST_NOISE_OF_FEW_PX = 0.5;
+const size_t ENOUGH_FOR_SIGMA = 6;
 
 /// A point is called a mistake beyond so many robust standard deviations, and never below a pixel:
 /// less may be what the calibrated lens leaves over.
@@ -115,7 +117,7 @@ CameraPose Finish(const PoseFit& fit, const PoseMinimum& best, double scale, dou
 	if (!fit.Covariance(best, scale, covariance))
 		throw Refused(fmt::format("{}: the points do not determine the camera: spread them over the picture and in depth", file));
 	const Eigen::Matrix<double, 6, 1> sigma = noise * covariance.diagonal().cwiseSqrt();
-	const bool enough = points.size() >= 6;
+	const bool enough = points.size() >= ENOUGH_FOR_SIGMA;
 	const Eigen::Vector3d unknown = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
 	pose.rotation_sigma_deg = enough ? Eigen::Vector3d(sigma.head<3>() * DEGREES) : unknown;
 	pose.location_sigma = enough ? Eigen::Vector3d(sigma.tail<3>() * fit.Spread()) : unknown;
@@ -145,7 +147,7 @@ CameraPose SolvePose(const StateCamera& camera, const std::vector<PosePoint>& po
 			file, pose.rms, points[pose.worst].line, pose.residuals[pose.worst].norm()));
 	}
 	const double noise = std::sqrt(best.misfit / static_cast<double>(2 * n - 6));
-	RefuseAmbiguous(fit, minima, std::max(noise, LEAST_NOISE_PX), n, file);
+	RefuseAmbiguous(fit, minima, std::max(noise, n < ENOUGH_FOR_SIGMA ? LEAST_NOISE_OF_FEW_PX : LEAST_NOISE_PX), n, file);
 	const CameraPose pose = Finish(fit, best, scale, noise, points, file);
 	if (pose.outliers > 0)
 		spdlog::warn("{}: {} of {} points are far off and hardly count; measure again line {} ({:.2f} px)", file, pose.outliers, n, points[pose.worst].line,

@@ -16,9 +16,9 @@ namespace
 std::string Number(double x) { return fmt::format("{:.10g}", x); }
 std::string Vector(const Eigen::Vector3d& v) { return fmt::format("<{:.12g}, {:.12g}, {:.12g}>", v.x(), v.y(), v.z()); }
 
-std::string Sigmas(const Eigen::Vector3d& s)
+std::string Sigmas(const Eigen::Vector3d& s, const char* unit)
 {
-	return std::isfinite(s.sum()) ? fmt::format("+- {:.2g}, {:.2g}, {:.2g}", s.x(), s.y(), s.z()) : "sigma unknown: give at least 6 points";
+	return std::isfinite(s.sum()) ? fmt::format("+- {:.2g}, {:.2g}, {:.2g} {}", s.x(), s.y(), s.z(), unit) : "sigma unknown: give at least 6 points";
 }
 
 CameraBlock Block(const StateCamera& c, const CameraPose& pose, double unit_mm)
@@ -47,17 +47,17 @@ std::string PoseInc(const StateCamera& c, const CameraPose& pose, double unit_mm
 {
 	return fmt::format(
 		"// Written by tiltcal {} pose, state '{}'. World unit: {:g} mm. Render at {} x {} pixels or any size of this aspect ratio.\n"
-		"// {} points, reprojection {:.3f} px RMS. location {}; rotation about right, up, forward {} degrees.\n"
+		"// {} points, reprojection {:.3f} px RMS. Location {}; rotation about right, up, forward {}.\n"
 		"// The sigmas hold the scatter of the points, not the calibration's own.\n"
 		"{}{}{}",
-		TILTCAL_VERSION, c.state, unit_mm, c.width, c.height, pose.residuals.size(), pose.rms, Sigmas(pose.location_sigma), Sigmas(pose.rotation_sigma_deg),
+		TILTCAL_VERSION, c.state, unit_mm, c.width, c.height, pose.residuals.size(), pose.rms, Sigmas(pose.location_sigma, "units"), Sigmas(pose.rotation_sigma_deg, "degrees"),
 		c.aperture_diameter_mm > 0 ? "" : "// The calibration knows no aperture and no focus: a pinhole camera.\n", BlurSamplesDefault(), CameraBlockText(Block(c, pose, unit_mm)));
 }
 
 std::string PoseText(const CameraPose& pose, const std::vector<PosePoint>& points)
 {
-	std::string out = fmt::format("location  {}  {}\nrotation about right, up, forward  {} degrees\n", Vector(pose.location), Sigmas(pose.location_sigma),
-		Sigmas(pose.rotation_sigma_deg));
+	std::string out = fmt::format("location  {}  {}\nrotation about right, up, forward  {}\n", Vector(pose.location), Sigmas(pose.location_sigma, "scene units"),
+		Sigmas(pose.rotation_sigma_deg, "degrees"));
 	out += "  line      u_px      v_px      du_px     dv_px   (predicted - measured)\n";
 	for (size_t i = 0; i < points.size(); ++i)
 		out += fmt::format("{:6d} {:9.2f} {:9.2f}  {:9.3f} {:9.3f}{}\n", points[i].line, points[i].u, points[i].v, pose.residuals[i].x(), pose.residuals[i].y(),

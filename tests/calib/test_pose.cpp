@@ -163,6 +163,42 @@ TEST(Pose, SigmasAreHonest)
 	EXPECT_NEAR(rotation, 1.06, 0.35);
 }
 
+/// Cameras all around, sets of points of all kinds: found, or refused as ambiguous, never taken for another.
+TEST(Pose, RandomScenesAreSolvedOrRefused)
+{
+	std::mt19937 random(3);
+	std::uniform_real_distribution<double> unit(-1, 1);
+	int solved = 0, refused = 0;
+	for (unsigned seed = 1; seed <= 150; ++seed)
+	{
+		const size_t n = 6 + seed % 7;
+		const bool flat = seed % 2 == 0;
+		Vector3d from(unit(random), unit(random), unit(random));
+		if (std::abs(from.normalized().y()) > 0.95 || from.norm() < 0.2)
+			continue;   // LookAt's own pole
+		// Not edge-on to a flat set.
+		if (flat && std::abs(from.normalized().z()) < 0.3)
+			continue;
+		const Scene scene = LookAt((600 + 300 * std::abs(unit(random))) * from.normalized(), { 5, 10, -3 });
+		const std::vector<PosePoint> points = Photograph(Tilted(), scene, Box(n, flat ? 0 : 150, seed), 0.2, seed);
+		try
+		{
+			const CameraPose pose = SolvePose(Tilted(), points, "points.csv");
+			++solved;
+			// 10 sigma: with 6 points the sigma itself, of 6 degrees of freedom, may be 3 times too small. Another camera
+			// that fits is hundreds of sigmas away.
+			EXPECT_LT((pose.location - scene.location).cwiseQuotient(pose.location_sigma).cwiseAbs().maxCoeff(), 10) << seed << ", " << n << " points";
+		}
+		catch (const Error& e)
+		{
+			++refused;
+			EXPECT_THAT(e.what(), testing::AnyOf(HasSubstr("two camera places"), HasSubstr("outside the calibrated picture"))) << seed;
+		}
+	}
+	EXPECT_GT(solved, 90);
+	EXPECT_LT(refused, 10);
+}
+
 TEST(Pose, NamesTheWorstPointAndStandsIt)
 {
 	std::vector<PosePoint> points = Photograph(Tilted(), SCENE, Box(12, 200), 0.2);
