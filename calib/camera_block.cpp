@@ -12,7 +12,7 @@ std::string CameraBlockText(const CameraBlock& b)
 	return fmt::format(
 		"camera {{\n"
 		"\ttilt_lens {{\n"
-		"\t\tlens_tilt {}\n"
+		"\t\t{}\n"
 		"\t\ttilt_direction {}\n"
 		"\t\tfocal_distance {}\n"
 		"\t\timage_distance {}\n"
@@ -23,7 +23,7 @@ std::string CameraBlockText(const CameraBlock& b)
 		"{}"
 		"\tblur_samples TiltCal_Blur_Samples\n"
 		"\tvariance 0\n"
-		"}}\n", b.lens_tilt, b.tilt_direction, b.focal_distance, b.image_distance, b.shift_x, b.shift_y, b.aperture_diameter, b.effects, b.place);
+		"}}\n", b.tilt, b.tilt_direction, b.focal_distance, b.image_distance, b.shift_x, b.shift_y, b.aperture_diameter, b.effects, b.place);
 }
 
 std::string BlurSamplesDefault() { return "#ifndef (TiltCal_Blur_Samples)\n\t#declare TiltCal_Blur_Samples = 128;\n#end\n"; }

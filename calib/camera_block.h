@@ -12,9 +12,9 @@ namespace tiltcal
 /// or identifiers. Lengths in world units, angles in degrees.
 struct CameraBlock
 {
-	/// The plane of focus follows from the lens's tilt and the distance on the axis: that
-	/// states planes parallel to the axis and foci at infinity too.
-	std::string lens_tilt, tilt_direction, focal_distance, image_distance, shift_x, shift_y, aperture_diameter;
+	/// "focal_plane_tilt A", or "lens_tilt A", which states a focus at infinity too.
+	std::string tilt;
+	std::string tilt_direction, focal_distance, image_distance, shift_x, shift_y, aperture_diameter;
 	std::string effects;   ///< lines of the tilt_lens block, each indented by two tabs and ended
 	std::string place;     ///< lines: location, direction, right, up, .., each indented by one tab and ended
 };

@@ -82,7 +82,7 @@ std::string Numbers(const Calibration& c, const Solution& solution, const Geomet
 
 std::string Macro(const Calibration& c, const std::string& p, bool distorted)
 {
-	CameraBlock block{ p + "_Lens_Tilt", p + "_Tilt_Direction", p + "_Focus_Distance", p + "_Image_Distance",
+	CameraBlock block{ "focal_plane_tilt " + p + "_Focal_Plane_Tilt", p + "_Tilt_Direction", p + "_Focus_Distance", p + "_Image_Distance",
 		p + "_Shift_X", p + "_Shift_Y", p + "_Aperture_Diameter", "", "" };
 	if (c.solution.model == "curved")
 		block.effects += fmt::format("\t\tfield_curvature {}_Field_Curvature\n", p);
