@@ -6,6 +6,7 @@
 #include "pose_fit.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -26,6 +27,9 @@ const double DEGREES = 180 / 3.14159265358979323846;
 /// Fewer than 6 points say nothing about their own noise: they may have been clicked by hand.
 const double LEAST_NOISE_PX = 0.1, LEAST_NOISE_OF_FEW_PX = 0.5;
 const size_t ENOUGH_FOR_SIGMA = 6;
+
+/// Scattered by more than this share of the picture's width, these are not the points.
+const double WORST_RMS_SHARE = 0.01;
 
 /// A point is called a mistake beyond so many robust standard deviations, and never below a pixel:
 /// less may be what the calibrated lens leaves over.
@@ -55,6 +59,13 @@ void RefuseLine(const PoseFit& fit, const std::string& file)
 		throw Refused(fmt::format("{}: the points lie on one line, about which the camera could turn: add points beside it", file));
 }
 
+[[noreturn]] void RefuseBehind(const PoseFit& fit, const std::string& file)
+{
+	const std::vector<int> lines = fit.LinesBehind();
+	throw Refused(fmt::format("{}: no camera has all these points before it{}; check the world's axes and which pixel belongs to which point", file,
+		lines.empty() ? "" : fmt::format(": line {} would lie behind the camera", fmt::join(lines, ", "))));
+}
+
 double Rms(double misfit, size_t n) { return std::sqrt(misfit / static_cast<double>(n)); }
 
 /// The same points in a mirrored world.
@@ -75,7 +86,7 @@ void RefuseMirrored(const StateCamera& camera, const std::vector<PosePoint>& poi
 		return;
 	const double other = Rms(mirrored[0].misfit, points.size());
 	const double here = minima.empty() ? std::numeric_limits<double>::infinity() : Rms(minima[0].misfit, points.size());
-	if (here > 3 * std::max(other, LEAST_NOISE_PX))
+	if (other <= WORST_RMS_SHARE * camera.width && here > 3 * std::max(other, LEAST_NOISE_PX))
 		throw Refused(fmt::format("{}: the world is mirrored: it fits to {:.2f} px, its mirror image to {:.2f} px. POV-Ray's axes are left-handed "
 			"(x right, y up, z away): swap y and z of a right-handed survey, or negate one axis", file, here, other));
 }
@@ -136,11 +147,10 @@ CameraPose SolvePose(const StateCamera& camera, const std::vector<PosePoint>& po
 	const std::vector<PoseMinimum> minima = fit.Minima(scale);
 	RefuseMirrored(camera, points, minima, file);
 	if (minima.empty())
-		throw Refused(fmt::format("{}: no camera has all these points before it: some would lie behind the camera; check the world's axes and which pixel belongs to which point", file));
-	// Scattered by more than a hundredth of the picture, these are not the points.
+		RefuseBehind(fit, file);
 	const PoseMinimum& best = minima[0];
 	const size_t n = points.size();
-	if (Rms(best.misfit, n) > 0.01 * camera.width)
+	if (Rms(best.misfit, n) > WORST_RMS_SHARE * camera.width)
 	{
 		const CameraPose pose = Finish(fit, best, scale, 0, points, file);
 		throw Refused(fmt::format("{}: no camera fits these points: {:.1f} px RMS, worst line {} ({:.1f} px); check which pixel belongs to which point",

@@ -148,6 +148,16 @@ std::vector<PoseMinimum> PoseFit::Starts() const
 	return starts;
 }
 
+std::vector<int> PoseFit::LinesBehind() const
+{
+	std::vector<int> lines;
+	const std::vector<PoseMinimum> starts = Starts();
+	for (const PosePoint& p : points)
+		if (!starts.empty() && (starts[0].rotation * (Eigen::Vector3d(p.world.x, p.world.y, p.world.z) - starts[0].location)).z() <= 0)
+			lines.push_back(p.line);
+	return lines;
+}
+
 PoseMinimum PoseFit::MirroredAboutSight(const PoseMinimum& m) const
 {
 	const Eigen::Vector3d sight = (m.rotation * -m.location).normalized();   // to the centroid, camera frame

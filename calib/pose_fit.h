@@ -34,6 +34,9 @@ public:
 	/// that the residuals of the best one show, robustly.
 	std::vector<PoseMinimum> Minima(double& scale_px) const;
 
+	/// Lines of the points that the closed form would have behind the lens.
+	std::vector<int> LinesBehind() const;
+
 	/// predicted - measured, px.
 	std::vector<Eigen::Vector2d> Residuals(const PoseMinimum& minimum) const;
 

@@ -26,10 +26,9 @@ CameraBlock Block(const StateCamera& c, const CameraPose& pose, double unit_mm)
 	// POV-Ray has no infinity; a focus at 1e30 is one.
 	const double focus = std::isfinite(c.focus_distance_mm) ? c.focus_distance_mm / unit_mm : 1e30;
 	const double pixel = c.pitch_mm / unit_mm, w = c.image_distance_mm / unit_mm;
-	// The direction of the picture's centre is <shift, w> in camera axes.
+	const Point shift = ShiftOfPicture(c.width, c.height, c.principal_point);
 	CameraBlock block{ "lens_tilt " + Number(c.lens_tilt_deg), Number(c.tilt_direction_deg), Number(focus), Number(w),
-		Number((0.5 * (c.width - 1) - c.principal_point[0]) * pixel), Number(-(0.5 * (c.height - 1) - c.principal_point[1]) * pixel),
-		Number(c.aperture_diameter_mm / unit_mm), "", "" };
+		Number(shift[0] * pixel), Number(shift[1] * pixel), Number(c.aperture_diameter_mm / unit_mm), "", "" };
 	if (c.field_curvature_per_mm != 0)
 		block.effects += fmt::format("\t\tfield_curvature {:.10g}\n", c.field_curvature_per_mm * unit_mm);
 	if (c.HasDistortion())

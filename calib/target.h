@@ -31,7 +31,7 @@ struct Target
 	bool IsCheckerboard() const { return kind == TargetKind::CHECKERBOARD; }
 };
 
-/// A rectangle or a circle's place on the page, mm.
+/// A point of the page, mm.
 struct PagePoint
 {
 	double x = 0, y = 0;

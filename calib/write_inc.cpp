@@ -56,9 +56,9 @@ std::string Numbers(const Calibration& c, const Solution& solution, const Geomet
 	out += Declare(prefix, "Focal_Plane_Tilt", lens.focal_plane_tilt, "degrees");
 	out += Declare(prefix, "Tilt_Direction", lens.tilt_direction, "degrees, 0 = recedes towards picture up, 90 = right");
 	out += Declare(prefix, "Lens_Tilt", lens.lens_tilt, "degrees");
-	// The direction of the picture's centre is <SX, SY, W> in camera axes.
-	out += Declare(prefix, "Shift_X", { (0.5 * (c.task.width - 1) - cp[0]) * pitch, cs[0] * pitch }, "mm");
-	out += Declare(prefix, "Shift_Y", { -(0.5 * (c.task.height - 1) - cp[1]) * pitch, cs[1] * pitch }, "mm");
+	const Point shift = ShiftOfPicture(c.task.width, c.task.height, cp);
+	out += Declare(prefix, "Shift_X", { shift[0] * pitch, cs[0] * pitch }, "mm");
+	out += Declare(prefix, "Shift_Y", { shift[1] * pitch, cs[1] * pitch }, "mm");
 	out += Declare(prefix, "Principal_Point_X", { cp[0], cs[0] }, "px");
 	out += Declare(prefix, "Principal_Point_Y", { cp[1], cs[1] }, "px");
 	out += Declare(prefix, "Field_Curvature", solution.field_curvature, "1/mm, of the bowl that the plane of focus touches on the lens axis");

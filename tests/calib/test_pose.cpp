@@ -242,6 +242,20 @@ TEST(Pose, RefusesPointsThatAreNotThoseOfThePicture)
 	EXPECT_THAT(Refusal(Tilted(), points), HasSubstr("points.csv:4: pixel (1900"));
 }
 
+TEST(Pose, RefusesPointsBehindTheCamera)
+{
+	// A camera amid its points: the plain projection puts those behind it into the picture too.
+	StateCamera camera = Tilted();
+	camera.lens_tilt_deg = 0;
+	camera.distortion = {};
+	std::vector<PosePoint> points;
+	for (const Vector3d& p : Box(14, 0))
+		for (const double z : { 700., -600. })
+			if (points.size() < 12)
+				points.push_back({ 900 + 2416 * p.x() / z, 600 - 2416 * p.y() / z, { p.x(), p.y(), z + 0.3 * p.x() }, static_cast<int>(points.size()) + 2 });
+	EXPECT_THAT(Refusal(camera, points), testing::AnyOf(HasSubstr("would lie behind the camera"), HasSubstr("no camera fits"), HasSubstr("mirrored")));
+}
+
 TEST(Pose, SaysWhenAPlaneLeavesTwoCameras)
 {
 	// A small square seen from twenty times its size: both tilts of it look the same but for 0.05 px.
