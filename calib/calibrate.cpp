@@ -161,6 +161,12 @@ void Refine(const Task& task, Refinement refinement, Calibration& c)
 
 }
 
+void CheckPitch(double pitch_mm)
+{
+	if (!(pitch_mm > 0 && pitch_mm < 1))
+		throw UsageError(fmt::format("--pitch {}: give the distance of pixel centres on the sensor in mm, such as 0.00655", pitch_mm));
+}
+
 Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, double pitch_mm, const Transfer& transfer, const DetectOptions& options, const EdgeChoice& choice)
 {
 	Task task;

@@ -95,8 +95,7 @@ void Run(const Options& o)
 	CheckModel(o.model);
 	const Poses poses = ParsePoses(o.poses);
 	const Refinement refinement = ParseRefinement(o.refine);
-	if (!(o.pitch > 0 && o.pitch < 1))
-		throw UsageError(fmt::format("--pitch {}: give the distance of pixel centres on the sensor in mm, such as 0.00655", o.pitch));
+	CheckPitch(o.pitch);
 	if (o.edges.most != 0 && o.edges.most < FEWEST_EDGES)
 		throw UsageError(fmt::format("--edges-per-photo {}: give 0 for all edges, or at least {}", o.edges.most, FEWEST_EDGES));
 	const std::vector<StateFiles> states = States(o);

@@ -39,8 +39,7 @@ void Run(const Options& o)
 	const Board board = ParseBoard(o.board, 1);
 	const Transfer transfer = ParseTransfer(o.transfer);
 	const std::vector<std::string> files = ExpandGlobs(o.photos, "PHOTO");
-	const std::string folder = std::filesystem::path(o.csv).parent_path().string();
-	PrepareFolder(folder.empty() ? "." : folder);
+	PrepareFolderOf(o.csv);
 	std::vector<Photo> photos;
 	for (const std::string& file : files)
 	{
