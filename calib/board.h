@@ -50,6 +50,10 @@ struct Edge
 	double blur_sigma = 0;
 	double offset_sigma = 0, slope_sigma = 0;
 	double low = 0, high = 0;    ///< linear light on both sides
+	double square_px = 0;        ///< what lies between edges here: the square's shorter side in the picture
+
+	/// Blur radius over the side of a square.
+	double BlurRatio() const { return 0.5 * blur / square_px; }
 };
 
 /// Everything measured in one photograph. Corners row by row: index row * InnerColumns + column.
@@ -59,7 +63,7 @@ struct Photo
 	int width = 0, height = 0;
 	std::vector<Corner> corners;
 	std::vector<Edge> edges;
-	int edges_dropped = 0;       ///< blurred into their neighbours, or not fitted
+	int edges_dropped = 0;       ///< blurred beyond measuring, or not fitted
 	double saturated_share = 0;  ///< edges whose bright side is clipped
 };
 

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "find_board.h"
+
+#include "error.h"
+#include "image_io.h"
+
+#include <fmt/format.h>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tiltcal
+{
+
+namespace
+{
+
+using Points = std::vector<cv::Point2f>;
+
+/// Full-scale corners found in `picture`, which `small_from_full` (2x3, pixel centres) made; empty when not found.
+Points Find(const cv::Mat& picture, cv::Size size, const cv::Mat& small_from_full, int flags, cv::Mat* meta = nullptr)
+{
+	Points points;
+	cv::Mat unused;
+	if (!cv::findChessboardCornersSB(picture, size, points, flags | cv::CALIB_CB_ACCURACY, meta ? *meta : unused))
+		return {};
+	cv::Mat full_from_small;
+	cv::invertAffineTransform(small_from_full, full_from_small);
+	cv::transform(points, points, full_from_small);
+	return points;
+}
+
+/// Scaling of pixel centres at integers: about (-0.5, -0.5).
+cv::Mat ScaleMap(double scale)
+{
+	return (cv::Mat_<double>(2, 3) << scale, 0, 0.5 * (scale - 1), 0, scale, 0.5 * (scale - 1));
+}
+
+Points FindAtScale(const cv::Mat& picture, cv::Size size, double scale, int flags, cv::Mat* meta = nullptr)
+{
+	cv::Mat small;
+	cv::resize(picture, small, cv::Size(), scale, scale, cv::INTER_AREA);
+	return Find(small, size, ScaleMap(scale), flags | cv::CALIB_CB_NORMALIZE_IMAGE, meta);
+}
+
+/// Scales to try: blurred corners are found best when squares are some 20 to 60 pixels.
+std::vector<double> Scales(const cv::Mat& picture)
+{
+	const double longer = std::max(picture.cols, picture.rows);
+	std::vector<double> scales;
+	for (const double target : { 900.0, 1500.0, 600.0 })
+		if (longer > target * 1.2)
+			scales.push_back(target / longer);
+	// All of a large picture's pixels are of use only to boards that are small in it.
+	scales.push_back(std::min(1.0, 3000 / longer));
+	return scales;
+}
+
+/// Local mean taken away, local contrast made equal, then saturated: signs of the pattern, in 8 bit. `window` px.
+cv::Mat Flatten(const cv::Mat& picture, double window)
+{
+	cv::Mat value, mean, square;
+	picture.convertTo(value, CV_32F);
+	cv::GaussianBlur(value, mean, cv::Size(), window);
+	value -= mean;
+	cv::GaussianBlur(value.mul(value), square, cv::Size(), window);
+	double most = 0;
+	cv::minMaxLoc(square, nullptr, &most);
+	cv::Mat flat(picture.size(), CV_8UC1);
+	const float least = static_cast<float>(1e-3 * std::sqrt(most) + 1e-6);
+	for (int y = 0; y < flat.rows; ++y)
+		for (int x = 0; x < flat.cols; ++x)
+		{
+			const float z = value.at<float>(y, x) / (std::sqrt(square.at<float>(y, x)) + least);
+			flat.at<uchar>(y, x) = cv::saturate_cast<uchar>(127.5f + 127.5f * std::tanh(3 * z));
+		}
+	return flat;
+}
+
+/// Reduced by `scale` and stretched twofold in direction `degrees`; `map` receives small_from_full.
+cv::Mat Stretch(const cv::Mat& picture, double scale, double degrees, cv::Mat& map)
+{
+	const double c = std::cos(degrees * CV_PI / 180), s = std::sin(degrees * CV_PI / 180);
+	const cv::Matx22d A = scale * cv::Matx22d(1 + c * c, c * s, c * s, 1 + s * s);
+	double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+	for (const double x : { 0.0, picture.cols - 1.0 })
+		for (const double y : { 0.0, picture.rows - 1.0 })
+		{
+			const cv::Vec2d p = A * cv::Vec2d(x, y);
+			x0 = std::min(x0, p[0]), x1 = std::max(x1, p[0]);
+			y0 = std::min(y0, p[1]), y1 = std::max(y1, p[1]);
+		}
+	map = (cv::Mat_<double>(2, 3) << A(0, 0), A(0, 1), -x0, A(1, 0), A(1, 1), -y0);
+	// The warp takes single pixels: take the mean over what falls together first.
+	cv::Mat smooth, warped;
+	cv::GaussianBlur(picture, smooth, cv::Size(), 0.3 / scale);
+	cv::warpAffine(smooth, warped, map, cv::Size(static_cast<int>(x1 - x0) + 1, static_cast<int>(y1 - y0) + 1), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+	return warped;
+}
+
+/// Widths of Flatten's window, px of the reduced picture: half a square to a square of boards of usual size.
+const double WINDOWS[] = { 14, 30 };
+
+/// Strongly blurred, vignetted or foreshortened boards.
+Points FindFlattened(const cv::Mat& picture, cv::Size size)
+{
+	const double longer = std::max(picture.cols, picture.rows);
+	const double scales[] = { std::min(1.0, 900 / longer), std::min(1.0, 500 / longer) };
+	for (const double scale : scales)
+	{
+		cv::Mat small;
+		cv::resize(picture, small, cv::Size(), scale, scale, cv::INTER_AREA);
+		for (const double window : WINDOWS)
+		{
+			Points points = Find(Flatten(small, window), size, ScaleMap(scale), 0);
+			if (!points.empty())
+				return points;
+		}
+	}
+	for (const double scale : scales)
+		for (const double degrees : { 90.0, 0.0, 45.0, 135.0 })
+		{
+			cv::Mat map;
+			const cv::Mat stretched = Stretch(picture, scale, degrees, map);
+			for (const double window : WINDOWS)
+			{
+				Points points = Find(Flatten(stretched, window), size, map, 0);
+				if (!points.empty())
+					return points;
+			}
+		}
+	return {};
+}
+
+/// Names the size of the board that is really there, if there is one.
+std::string WhatIsThere(const cv::Mat& picture, const Board& board)
+{
+	cv::Mat meta;
+	const double scale = std::min(1.0, 900.0 / std::max(picture.cols, picture.rows));
+	FindAtScale(picture, cv::Size(3, 3), scale, cv::CALIB_CB_LARGER, &meta);
+	// Small grids are found in any texture; they would mislead.
+	const int longer = std::max(meta.cols, meta.rows), shorter = std::min(meta.cols, meta.rows);
+	if (shorter >= 4 && !(longer == board.InnerColumns() && shorter == board.InnerRows()))
+		return fmt::format("it shows about {}x{} squares; is --board {}x{} right (squares, not inner corners), and is the whole board in the picture?",
+			longer + 1, shorter + 1, board.columns, board.rows);
+	return "show the whole board with its white margin, inclined by no more than 60 degrees, and keep the radius of the blur below 0.45 of a square "
+		"(stop down, or move the board nearer to the plane of focus)";
+}
+
+}
+
+cv::Mat ForDetector(const cv::Mat& grey)
+{
+	std::vector<float> values;
+	const int step = std::max(1, static_cast<int>(std::sqrt(grey.total() / 1e5)));
+	for (int y = 0; y < grey.rows; y += step)
+		for (int x = 0; x < grey.cols; x += step)
+			values.push_back(grey.at<float>(y, x));
+	const size_t k = values.size() * 99 / 100;
+	std::nth_element(values.begin(), values.begin() + static_cast<long>(k), values.end());
+	return ToDisplay(grey, 0.9 / std::max(values[k], 1e-6f));
+}
+
+std::vector<cv::Point2f> FindCheckerboard(const cv::Mat& grey, const Board& board, const std::string& file)
+{
+	const cv::Mat picture = ForDetector(grey);
+	const cv::Size size(board.InnerColumns(), board.InnerRows());
+	for (const double scale : Scales(picture))
+	{
+		Points points = FindAtScale(picture, size, scale, 0);
+		if (!points.empty())
+			return points;
+	}
+	// Smaller pictures hold no board of 4x4 squares, and the windows do not fit in.
+	Points points = std::min(picture.cols, picture.rows) < 40 ? Points() : FindFlattened(picture, size);
+	if (points.empty())
+		throw Refused(fmt::format("{}: no board of {}x{} squares found: {}", file, board.columns, board.rows, WhatIsThere(picture, board)));
+	return points;
+}
+
+}

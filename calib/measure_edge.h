@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#ifndef TILTCAL_MEASURE_EDGE_H
+#define TILTCAL_MEASURE_EDGE_H
+
+#include "corner_grid.h"
+#include "spread_order.h"
+
+#include <opencv2/core.hpp>
+
+namespace tiltcal
+{
+
+/// Blur radius over the side of a square above which an edge is fitted together with its neighbours.
+const double LONE_RATIO = 0.2;
+/// Above this the plateaus are nowhere seen, and brightness, contrast and blur are told apart badly.
+const double MOST_RATIO = 0.55;
+
+enum class EdgeOutcome
+{
+	MEASURED,
+	FAILED,        ///< too small, too noisy, or not an edge
+	TOO_BLURRED    ///< above MOST_RATIO; edge.blur and edge.square_px are filled in
+};
+
+/// Fits one edge alone (edge_fit.h), with pixels that no other edge's blur reaches.
+/// `edge` receives everything of board.h. TOO_BLURRED: above LONE_RATIO, try MeasureBlurredEdge.
+EdgeOutcome MeasureLoneEdge(const cv::Mat& grey, const CornerGrid& grid, const EdgePlace& place, Edge& edge);
+
+/// The same with the edges around it in the model (blurred_checker.h), where `grid` says. Good for `start_radius` above
+/// some 2.5 px. `growth`: gradient of the blur radius in the picture, from its neighbours; 0 where unknown.
+EdgeOutcome MeasureBlurredEdge(const cv::Mat& grey, const CornerGrid& grid, const EdgePlace& place, double start_radius, const Vec2& growth, Edge& edge);
+
+}
+
+#endif
