@@ -67,6 +67,16 @@ struct Photo
 	double saturated_share = 0;  ///< edges whose bright side is clipped
 };
 
+/// Blur radius over the square's side in the edges of a photograph; all 0 when it has none.
+struct BlurRatios
+{
+	double least = 0, median = 0, most = 0;
+};
+BlurRatios RatiosOf(const Photo& photo);
+
+/// "blur radius 0.02 to 0.31 of a square, median 0.15".
+std::string RatioText(const Photo& photo);
+
 }
 
 #endif

@@ -185,4 +185,20 @@ EdgeFit FitEdge(const std::vector<EdgeSample>& samples, const EdgeProfile& profi
 	return fit;
 }
 
+EdgeShift FirstOrderShift(const std::vector<EdgeSample>& samples, const EdgeProfile& profile, const EdgeProfile& other, const EdgeFit& fit)
+{
+	Vector p, g;
+	p << fit.low, fit.high, fit.shade_x, fit.shade_s, fit.offset, fit.slope, fit.radius;
+	Matrix JtJ = Matrix::Zero();
+	Vector Jtr = Vector::Zero();
+	for (const EdgeSample& sample : samples)
+	{
+		const double value = Predict(p, sample, profile, &g);
+		JtJ += g * g.transpose();
+		Jtr += (Predict(p, sample, other, nullptr) - value) * g;
+	}
+	const Vector shift = JtJ.ldlt().solve(Jtr);
+	return { shift[OFFSET], shift[SLOPE], shift[RADIUS] };
+}
+
 }

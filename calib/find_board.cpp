@@ -25,7 +25,7 @@ Points Find(const cv::Mat& picture, cv::Size size, const cv::Mat& small_from_ful
 {
 	Points points;
 	cv::Mat unused;
-	if (!cv::findChessboardCornersSB(picture, size, points, flags | cv::CALIB_CB_ACCURACY, meta ? *meta : unused))
+	if (!cv::findChessboardCornersSB(picture, size, points, flags, meta ? *meta : unused))
 		return {};
 	cv::Mat full_from_small;
 	cv::invertAffineTransform(small_from_full, full_from_small);
@@ -43,8 +43,11 @@ Points FindAtScale(const cv::Mat& picture, cv::Size size, double scale, int flag
 {
 	cv::Mat small;
 	cv::resize(picture, small, cv::Size(), scale, scale, cv::INTER_AREA);
-	return Find(small, size, ScaleMap(scale), flags | cv::CALIB_CB_NORMALIZE_IMAGE, meta);
+	return Find(small, size, ScaleMap(scale), flags | cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_ACCURACY, meta);
 }
+
+/// Longer side, px, of pictures whose detection at full scale takes long.
+const double LARGE = 2000;
 
 /// Scales to try: blurred corners are found best when squares are some 20 to 60 pixels.
 std::vector<double> Scales(const cv::Mat& picture)
@@ -54,8 +57,8 @@ std::vector<double> Scales(const cv::Mat& picture)
 	for (const double target : { 900.0, 1500.0, 600.0 })
 		if (longer > target * 1.2)
 			scales.push_back(target / longer);
-	// All of a large picture's pixels are of use only to boards that are small in it.
-	scales.push_back(std::min(1.0, 3000 / longer));
+	if (longer <= LARGE)
+		scales.push_back(1);
 	return scales;
 }
 
@@ -104,13 +107,15 @@ cv::Mat Stretch(const cv::Mat& picture, double scale, double degrees, cv::Mat& m
 /// Widths of Flatten's window, px of the reduced picture: half a square to a square of boards of usual size.
 const double WINDOWS[] = { 14, 30 };
 
-/// Strongly blurred, vignetted or foreshortened boards.
+/// Reduced sizes at which flattened pictures are searched, px.
+const double FLAT_SIZES[] = { 800, 450 };
+
+/// Strongly blurred or vignetted boards.
 Points FindFlattened(const cv::Mat& picture, cv::Size size)
 {
-	const double longer = std::max(picture.cols, picture.rows);
-	const double scales[] = { std::min(1.0, 900 / longer), std::min(1.0, 500 / longer) };
-	for (const double scale : scales)
+	for (const double target : FLAT_SIZES)
 	{
+		const double scale = std::min(1.0, target / std::max(picture.cols, picture.rows));
 		cv::Mat small;
 		cv::resize(picture, small, cv::Size(), scale, scale, cv::INTER_AREA);
 		for (const double window : WINDOWS)
@@ -120,9 +125,16 @@ Points FindFlattened(const cv::Mat& picture, cv::Size size)
 				return points;
 		}
 	}
-	for (const double scale : scales)
+	return {};
+}
+
+/// Foreshortened boards.
+Points FindStretched(const cv::Mat& picture, cv::Size size)
+{
+	for (const double target : FLAT_SIZES)
 		for (const double degrees : { 90.0, 0.0, 45.0, 135.0 })
 		{
+			const double scale = std::min(1.0, target / std::max(picture.cols, picture.rows));
 			cv::Mat map;
 			const cv::Mat stretched = Stretch(picture, scale, degrees, map);
 			for (const double window : WINDOWS)
@@ -135,19 +147,24 @@ Points FindFlattened(const cv::Mat& picture, cv::Size size)
 	return {};
 }
 
-/// Names the size of the board that is really there, if there is one.
-std::string WhatIsThere(const cv::Mat& picture, const Board& board)
+/// Inner corners (longer, shorter side) of the largest grid seen; 0x0 where there is none of 4x4.
+cv::Size LargestGrid(const cv::Mat& picture)
 {
 	cv::Mat meta;
 	const double scale = std::min(1.0, 900.0 / std::max(picture.cols, picture.rows));
 	FindAtScale(picture, cv::Size(3, 3), scale, cv::CALIB_CB_LARGER, &meta);
 	// Small grids are found in any texture; they would mislead.
-	const int longer = std::max(meta.cols, meta.rows), shorter = std::min(meta.cols, meta.rows);
-	if (shorter >= 4 && !(longer == board.InnerColumns() && shorter == board.InnerRows()))
-		return fmt::format("it shows about {}x{} squares; is --board {}x{} right (squares, not inner corners), and is the whole board in the picture?",
-			longer + 1, shorter + 1, board.columns, board.rows);
-	return "show the whole board with its white margin, inclined by no more than 60 degrees, and keep the radius of the blur below 0.45 of a square "
-		"(stop down, or move the board nearer to the plane of focus)";
+	return std::min(meta.cols, meta.rows) < 4 ? cv::Size() : cv::Size(std::max(meta.cols, meta.rows), std::min(meta.cols, meta.rows));
+}
+
+[[noreturn]] void RefuseNotFound(const std::string& file, const Board& board, cv::Size seen)
+{
+	const std::string what = fmt::format("{}: no board of {}x{} squares found: ", file, board.columns, board.rows);
+	if (seen.width > 0 && seen != cv::Size(board.InnerColumns(), board.InnerRows()))
+		throw Refused(what + fmt::format("it shows about {}x{} squares; is --board {}x{} right (squares, not inner corners), and is the whole board in the picture?",
+			seen.width + 1, seen.height + 1, board.columns, board.rows));
+	throw Refused(what + "show the whole board with its white margin, inclined by no more than 60 degrees, and keep the radius of the blur below 0.45 of a square "
+		"(stop down, or move the board nearer to the plane of focus)");
 }
 
 }
@@ -174,10 +191,21 @@ std::vector<cv::Point2f> FindCheckerboard(const cv::Mat& grey, const Board& boar
 		if (!points.empty())
 			return points;
 	}
+	// A grid that is larger in a direction is another board, not a part of this one; one of the same size stands the other way.
+	const cv::Size seen = LargestGrid(picture), asked(std::max(size.width, size.height), std::min(size.width, size.height));
+	const bool another = seen == asked || seen.width > asked.width || seen.height > asked.height;
 	// Smaller pictures hold no board of 4x4 squares, and the windows do not fit in.
-	Points points = std::min(picture.cols, picture.rows) < 40 ? Points() : FindFlattened(picture, size);
+	const int longer = std::max(picture.cols, picture.rows), shorter = std::min(picture.cols, picture.rows);
+	Points points;
+	if (!another && shorter >= 40)
+		points = FindFlattened(picture, size);
+	// All of a large picture's pixels are of use only to boards that are small in it.
+	if (points.empty() && !another && longer > LARGE)
+		points = FindAtScale(picture, size, std::min(1.0, 3000.0 / longer), 0);
+	if (points.empty() && !another && shorter >= 40)
+		points = FindStretched(picture, size);
 	if (points.empty())
-		throw Refused(fmt::format("{}: no board of {}x{} squares found: {}", file, board.columns, board.rows, WhatIsThere(picture, board)));
+		RefuseNotFound(file, board, seen);
 	return points;
 }
 

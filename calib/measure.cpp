@@ -9,6 +9,7 @@
 
 #include <Eigen/Dense>
 #include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +23,7 @@ namespace
 
 /// After the first, of photographs with edges that run into each other: corners, which start some tenths of a pixel
 /// off, have settled to some thousandths.
-const int BLURRED_SWEEPS = 2;
+const int BLURRED_SWEEPS = 4;
 
 /// What became of one place, in the order of SpreadOrder.
 struct Measured
@@ -33,15 +34,56 @@ struct Measured
 	Edge edge;
 };
 
-void MeasureOne(const cv::Mat& grey, const CornerGrid& grid, Measured& m)
+/// The picture reduced so that squares are some 50 px: edges that run into each other are wide, and need no more.
+struct Reduced
+{
+	cv::Mat grey;
+	double factor = 1;      ///< full size over reduced size
+	CornerGrid grid;
+};
+
+Reduced Reduce(const cv::Mat& grey, const Board& board, const Photo& photo)
+{
+	const CornerGrid full(photo, board);
+	const double side = (full.At(1, 1) - full.At(0, 0)).norm() / std::sqrt(2.0);
+	const int k = std::max(1, static_cast<int>(side / 50));
+	Photo small = photo;
+	for (Corner& c : small.corners)
+	{
+		c.x = (c.x + 0.5) / k - 0.5;
+		c.y = (c.y + 0.5) / k - 0.5;
+	}
+	cv::Mat reduced = grey;
+	// Whole pixels only: each reduced one is the mean of k x k.
+	if (k > 1)
+		cv::resize(grey(cv::Rect(0, 0, grey.cols / k * k, grey.rows / k * k)), reduced, cv::Size(grey.cols / k, grey.rows / k), 0, 0, cv::INTER_AREA);
+	return { reduced, double(k), CornerGrid(small, board) };
+}
+
+/// MeasureBlurredEdge with lengths of the full picture.
+EdgeOutcome MeasureReduced(const Reduced& r, const EdgePlace& place, double start_radius, const Vec2& growth, bool last, Edge& edge)
+{
+	const EdgeOutcome outcome = MeasureBlurredEdge(r.grey, r.grid, place, start_radius / r.factor, growth, last, edge);
+	edge.x = (edge.x + 0.5) * r.factor - 0.5;
+	edge.y = (edge.y + 0.5) * r.factor - 0.5;
+	for (double* length : { &edge.blur, &edge.blur_sigma, &edge.offset_sigma, &edge.square_px })
+		*length *= r.factor;
+	return outcome;
+}
+
+void MeasureOne(const cv::Mat& grey, const CornerGrid& grid, const Reduced& reduced, Measured& m)
 {
 	m.outcome = MeasureLoneEdge(grey, grid, m.place, m.edge);
-	if (m.outcome != EdgeOutcome::TOO_BLURRED)
+	if (m.outcome == EdgeOutcome::MEASURED)
 		return;
 	m.with_neighbours = true;
 	const Vec2 A = grid.At(m.place.column, m.place.row), B = grid.At(m.place.column + m.place.along_columns, m.place.row + !m.place.along_columns);
-	// The start of the middle of what is allowed; the fit reaches both ends from there.
-	m.outcome = MeasureBlurredEdge(grey, grid, m.place, 0.3 * (B - A).norm(), Vec2::Zero(), m.edge);
+	for (const double start : { 0.3, 0.5 })
+	{
+		m.outcome = MeasureReduced(reduced, m.place, start * (B - A).norm(), Vec2::Zero(), false, m.edge);
+		if (m.outcome != EdgeOutcome::LOW_CONTRAST)
+			break;
+	}
 }
 
 /// Gradient of the blur radius around `m`, a plane through what was measured within two and a half squares.
@@ -88,7 +130,9 @@ bool Intersect(const std::vector<Edge>& edges, Corner& corner)
 		const double side = along.dot(Vec2(corner.x - e.x, corner.y - e.y));
 		const Vec2 normal = (nominal - e.slope * along).normalized();
 		const double variance = e.offset_sigma * e.offset_sigma + side * side * e.slope_sigma * e.slope_sigma;
-		const double weight = 1 / std::max(variance, 1e-8);
+		// Edges fitted with their neighbours use the same pixels twice: once in each direction.
+		const double shared = e.BlurRatio() > LONE_RATIO ? 2 : 1;
+		const double weight = 1 / std::max(shared * variance, 1e-8);
 		A += weight * normal * normal.transpose();
 		b += weight * normal * normal.dot(Vec2(e.x, e.y));
 		(e.along_columns ? columns : rows) = true;
@@ -141,14 +185,14 @@ std::vector<Edge> Good(const std::vector<Measured>& all, const CornerGrid& grid)
 }
 
 /// Once more with better corners and with the change of the blur over the board, which the first time knew nothing of.
-void Repeat(const cv::Mat& grey, const Board& board, Photo& photo, std::vector<Measured>& all)
+void Repeat(const cv::Mat& grey, const Board& board, Photo& photo, bool last, std::vector<Measured>& all)
 {
-	const CornerGrid grid(photo, board);
+	const Reduced reduced = Reduce(grey, board, photo);
 	const std::vector<Measured> before = all;
 	Parallel(0, all.size(), [&](size_t k)
 	{
 		if (before[k].with_neighbours && before[k].outcome == EdgeOutcome::MEASURED)
-			all[k].outcome = MeasureBlurredEdge(grey, grid, all[k].place, 0.5 * before[k].edge.blur, Growth(before, before[k]), all[k].edge);
+			all[k].outcome = MeasureReduced(reduced, all[k].place, 0.5 * before[k].edge.blur, Growth(before, before[k]), last, all[k].edge);
 	});
 }
 
@@ -160,22 +204,35 @@ void RefineCorners(Photo& photo)
 		blur += e.blur / double(photo.edges.size());
 	for (Corner& corner : photo.corners)
 		if (!Intersect(photo.edges, corner))
-			corner.sigma = std::hypot(0.05, 0.02 * blur);
+			corner.sigma = std::hypot(0.05, 0.03 * blur);
 }
 
 /// Too few edges are left to say anything: says which blur was seen.
 void RefuseTooBlurred(const std::vector<Measured>& all, const std::string& file)
 {
-	std::vector<double> ratios;
+	std::vector<double> ratios, contrasts;
 	for (const Measured& m : all)
+	{
 		if (m.edge.square_px > 0)
 			ratios.push_back(m.edge.BlurRatio());
-	const auto beyond = std::count_if(all.begin(), all.end(), [](const Measured& m) { return m.outcome == EdgeOutcome::TOO_BLURRED; });
-	if (2 * beyond < static_cast<long>(all.size()))
+		if (m.outcome == EdgeOutcome::LOW_CONTRAST)
+			contrasts.push_back((m.edge.high - m.edge.low) / (m.edge.high + m.edge.low));
+	}
+	const auto beyond = std::count_if(all.begin(), all.end(), [](const Measured& m) { return m.outcome != EdgeOutcome::MEASURED && m.edge.square_px > 0; });
+	if (2 * beyond < static_cast<long>(all.size()) || ratios.empty())
 		return;
-	std::nth_element(ratios.begin(), ratios.begin() + static_cast<long>(ratios.size() / 2), ratios.end());
-	throw Refused(fmt::format("{}: too blurred: the radius of the blur is {:.2f} of a square (median), {:.2f} can be measured at most. "
-		"Stop down, move the board nearer to the plane of focus, or use a board of larger squares", file, ratios[ratios.size() / 2], MOST_RATIO));
+	const auto median = [](std::vector<double>& v)
+	{
+		std::nth_element(v.begin(), v.begin() + static_cast<long>(v.size() / 2), v.end());
+		return v[v.size() / 2];
+	};
+	const std::string advice = "Stop down, move the board nearer to the plane of focus, or use a board of larger squares";
+	// A fit that fails or says less than the limit has taken contrast for blur.
+	if (!contrasts.empty() && (2 * static_cast<long>(contrasts.size()) > beyond || median(ratios) < MOST_RATIO))
+		throw Refused(fmt::format("{}: too blurred: what is left of the board's contrast ({:.2f}, at least {:.2f} is needed) shows a blur radius above {:.2f} of a square, "
+			"the most that can be measured. {}", file, median(contrasts), LEAST_CONTRAST, MOST_RATIO, advice));
+	throw Refused(fmt::format("{}: too blurred: the radius of the blur is {:.2f} of a square (median), {:.2f} can be measured at most. {}",
+		file, median(ratios), MOST_RATIO, advice));
 }
 
 }
@@ -183,6 +240,7 @@ void RefuseTooBlurred(const std::vector<Measured>& all, const std::string& file)
 void MeasureEdges(const cv::Mat& grey, const Board& board, Photo& photo, const EdgeChoice& choice)
 {
 	const CornerGrid grid(photo, board);
+	const Reduced reduced = Reduce(grey, board, photo);
 	std::vector<Measured> all;
 	for (const EdgePlace& place : SpreadOrder(board, choice.phase))
 		all.push_back({ place, EdgeOutcome::FAILED, false, {} });
@@ -192,21 +250,21 @@ void MeasureEdges(const cv::Mat& grey, const Board& board, Photo& photo, const E
 	while (found < wanted && tried < all.size())
 	{
 		const size_t end = std::min(tried + wanted - found, all.size());
-		Parallel(tried, end, [&](size_t k) { MeasureOne(grey, grid, all[k]); });
+		Parallel(tried, end, [&](size_t k) { MeasureOne(grey, grid, reduced, all[k]); });
 		for (; tried < end; ++tried)
 			found += all[tried].outcome == EdgeOutcome::MEASURED;
 	}
 	all.resize(tried);
-	RefuseTooBlurred(all, photo.file);
 	photo.edges = Good(all, grid);
 	RefineCorners(photo);
 	if (std::any_of(all.begin(), all.end(), [](const Measured& m) { return m.with_neighbours; }))
 		for (int sweep = 0; sweep < BLURRED_SWEEPS; ++sweep)
 		{
-			Repeat(grey, board, photo, all);
+			Repeat(grey, board, photo, sweep + 1 == BLURRED_SWEEPS, all);
 			photo.edges = Good(all, grid);
 			RefineCorners(photo);
 		}
+	RefuseTooBlurred(all, photo.file);
 	const auto clipped = std::count_if(photo.edges.begin(), photo.edges.end(), [](const Edge& e) { return e.high > 0.995; });
 	photo.edges_dropped = static_cast<int>(tried - photo.edges.size());
 	photo.saturated_share = photo.edges.empty() ? 0 : double(clipped) / double(photo.edges.size());

@@ -178,6 +178,8 @@ struct Lines
 	std::vector<CheckerLine> across, along;    // as BlurredChecker wants them
 	size_t before = 0, start = 0;
 	std::vector<CheckerLine> outline;          // of these, where the pattern ends
+
+	BlurredChecker Profile() const { return BlurredChecker(across, before, along, start); }
 };
 
 /// The line through P and Q.
@@ -256,6 +258,49 @@ std::vector<EdgeSample> CollectBlurred(const cv::Mat& grey, const Axes& axes, co
 	return samples;
 }
 
+/// The lines around are other edges' results: their errors become errors of this one. Each of the nearest is moved and
+/// turned a little. Neighbours are taken to be as uncertain as this edge, in place and, by half a length, in direction,
+/// so that the variances v solve v = v of the fit alone + M v.
+void AddNeighboursUncertainty(const Lines& lines, const std::vector<EdgeSample>& samples, double length, EdgeFit& fit)
+{
+	const double step = 0.1, half = 0.5 * length;   // px
+	Eigen::Matrix2d M = Eigen::Matrix2d::Zero();
+	Vec2 on_radius = Vec2::Zero();
+	const BlurredChecker profile = lines.Profile();
+	for (const bool is_across : { true, false })
+		for (const int side : { -1, 0 })
+			for (const int kind : { 0, 1 })   // moved, turned
+			{
+				Lines other = lines;
+				std::vector<CheckerLine>& family = is_across ? other.across : other.along;
+				const size_t index = (is_across ? other.before : other.start) + static_cast<size_t>(side);
+				if (index >= family.size())
+					continue;
+				CheckerLine& l = family[index];
+				if (kind == 0)
+					l.at += step;
+				else
+				{
+					// About the point nearest to the edge's middle.
+					const double turn = step / half, nx = l.nx;
+					l.nx -= turn * l.ns;
+					l.ns += turn * nx;
+				}
+				const EdgeShift shift = FirstOrderShift(samples, profile, other.Profile(), fit);
+				M(0, kind) += std::pow(shift.offset / step, 2);
+				M(1, kind) += std::pow(shift.slope * half / step, 2);
+				on_radius[kind] += std::pow(shift.radius / step, 2);
+			}
+	const double largest = std::max(M.col(0).sum(), M.col(1).sum());
+	if (largest > 0.9)
+		M *= 0.9 / largest;   // the series must converge, as the repeated fits do
+	const Vec2 alone(std::pow(fit.offset_sigma, 2), std::pow(fit.slope_sigma * half, 2));
+	const Vec2 both = (Eigen::Matrix2d::Identity() - M).inverse() * alone;
+	fit.offset_sigma = std::sqrt(both[0]);
+	fit.slope_sigma = std::sqrt(both[1]) / half;
+	fit.radius_sigma = std::sqrt(fit.radius_sigma * fit.radius_sigma + on_radius.dot(both));
+}
+
 }
 
 EdgeOutcome MeasureLoneEdge(const cv::Mat& grey, const CornerGrid& grid, const EdgePlace& place, Edge& edge)
@@ -291,35 +336,44 @@ EdgeOutcome MeasureLoneEdge(const cv::Mat& grey, const CornerGrid& grid, const E
 	return EdgeOutcome::MEASURED;
 }
 
-EdgeOutcome MeasureBlurredEdge(const cv::Mat& grey, const CornerGrid& grid, const EdgePlace& place, double start_radius, const Vec2& growth, Edge& edge)
+EdgeOutcome MeasureBlurredEdge(const cv::Mat& grey, const CornerGrid& grid, const EdgePlace& place, double start_radius, const Vec2& growth,
+	bool last, Edge& edge)
 {
 	const Axes axes = AxesOf(grey, SurroundingsOf(grid, place.column, place.row, place.along_columns));
 	if (axes.gap < 8 || axes.length < 8)
 		return EdgeOutcome::FAILED;
 	const Lines lines = LinesAround(grid, place, axes, growth);
-	const BlurredChecker profile(lines.across, lines.before, lines.along, lines.start);
+	const BlurredChecker profile = lines.Profile();
 	EdgeFit fit;
 	std::vector<EdgeSample> samples;
 	double radius = start_radius;
 	bool settled = false;
 	for (int round = 0; round < 5 && !settled; ++round)
 	{
-		samples = Thin(CollectBlurred(grey, axes, lines, radius), round == 0 ? 400 : 2000);
+		samples = Thin(CollectBlurred(grey, axes, lines, radius), last ? 2000 : round == 0 ? 400 : 800);
 		fit = FitEdge(samples, profile, radius);
+		edge.square_px = axes.Side();
 		if (!fit.valid)
 			return EdgeOutcome::FAILED;
 		settled = round > 0 && std::abs(fit.radius - radius) < 0.05 * radius + 0.1;
 		radius = fit.radius;
 		edge.blur = 2 * radius;
-		edge.square_px = axes.Side();
 		if (radius > 0.9 * axes.Side())
 			return EdgeOutcome::TOO_BLURRED;
 	}
 	if (radius > MOST_RATIO * axes.Side())
 		return EdgeOutcome::TOO_BLURRED;
+	if (fit.high - fit.low < LEAST_CONTRAST * (fit.high + fit.low) && radius > LONE_RATIO * axes.Side())
+	{
+		edge.low = fit.low;
+		edge.high = fit.high;
+		return EdgeOutcome::LOW_CONTRAST;
+	}
 	// Below, the pixel is not small beside the disc, and lone edges should have been found.
 	if (!settled || radius < 1.5 || !Trustworthy(fit, axes.gap))
 		return EdgeOutcome::FAILED;
+	if (last)
+		AddNeighboursUncertainty(lines, Thin(samples, 500), axes.length, fit);
 	Fill(fit, samples, axes, grid, place, edge);
 	return EdgeOutcome::MEASURED;
 }

@@ -14,13 +14,18 @@ namespace tiltcal
 /// Blur radius over the side of a square above which an edge is fitted together with its neighbours.
 const double LONE_RATIO = 0.2;
 /// Above this the plateaus are nowhere seen, and brightness, contrast and blur are told apart badly.
-const double MOST_RATIO = 0.55;
+const double MOST_RATIO = 0.5;
+
+/// Where edges run into each other, a blur beyond MOST_RATIO can look like a smaller one of a grey board: (high - low) / (high
+/// + low) below this is not believed there. Prints have 0.8 and more; 0.7 squares of blur look like 0.4 squares at 0.3.
+const double LEAST_CONTRAST = 0.65;
 
 enum class EdgeOutcome
 {
 	MEASURED,
 	FAILED,        ///< too small, too noisy, or not an edge
-	TOO_BLURRED    ///< above MOST_RATIO; edge.blur and edge.square_px are filled in
+	TOO_BLURRED,   ///< above MOST_RATIO; edge.blur and edge.square_px are filled in
+	LOW_CONTRAST   ///< below LEAST_CONTRAST; edge.low and edge.high are filled in
 };
 
 /// Fits one edge alone (edge_fit.h), with pixels that no other edge's blur reaches.
@@ -28,8 +33,10 @@ enum class EdgeOutcome
 EdgeOutcome MeasureLoneEdge(const cv::Mat& grey, const CornerGrid& grid, const EdgePlace& place, Edge& edge);
 
 /// The same with the edges around it in the model (blurred_checker.h), where `grid` says. Good for `start_radius` above
-/// some 2.5 px. `growth`: gradient of the blur radius in the picture, from its neighbours; 0 where unknown.
-EdgeOutcome MeasureBlurredEdge(const cv::Mat& grey, const CornerGrid& grid, const EdgePlace& place, double start_radius, const Vec2& growth, Edge& edge);
+/// some 2.5 px. `growth`: gradient of the blur radius in the picture, from its neighbours; 0 where unknown. Only when
+/// `last` are all pixels used, and do the sigmas contain what the neighbours' own uncertainty adds.
+EdgeOutcome MeasureBlurredEdge(const cv::Mat& grey, const CornerGrid& grid, const EdgePlace& place, double start_radius, const Vec2& growth,
+	bool last, Edge& edge);
 
 }
 

@@ -13,6 +13,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <tuple>
 
 namespace
 {
@@ -77,23 +78,89 @@ Scene Frontal(double ratio)
 	// Width: w d |1/U - 1/z|, U = 700, z = 500.
 	scene.focus_point = { 0, 0, 700 };
 	scene.aperture = 2 * ratio * 40 / (scene.w_px * (1.0 / 500 - 1.0 / 700));
-	scene.noise = 0.005;
+	scene.noise = 0.006;
+	scene.lens_points = 600;
 	return scene;
 }
 
-TEST(Blurred, SweepForNow)
+class BlurRatio : public testing::TestWithParam<double> {};
+
+TEST_P(BlurRatio, CornersAndBlurOfAFrontalBoard)
 {
-	for (const double ratio : { 0.05, 0.1, 0.2, 0.25, 0.3, 0.35, 0.4, 0.45, 0.5 })
-		try { Measure(Frontal(ratio)); } catch (const Error& e) { std::printf("%g: %s\n", ratio, e.what()); }
-	for (const double incline : { 30.0, 45.0, 60.0 })
-		for (const double turn : { 0.0, 100.0, 215.0 })
+	const double ratio = GetParam();
+	const Errors e = Measure(Frontal(ratio));
+	EXPECT_NEAR(e.ratio, ratio, 0.01);
+	// The task's own bounds; squares of 40 px, noise as of 20000 electrons.
+	EXPECT_LT(e.corner, ratio <= 0.2 ? 0.06 : 0.15);
+	EXPECT_LT(e.blur, std::max(0.1, 0.01 * ratio * 40));
+	EXPECT_EQ(e.dropped, 0u);
+	// A sigma is honest within a factor of 2 either way.
+	EXPECT_GT(e.corner_sigmas, 0.5);
+	EXPECT_LT(e.corner_sigmas, 2);
+	EXPECT_GT(e.blur_sigmas, 0.5);
+	EXPECT_LT(e.blur_sigmas, 2);
+}
+
+INSTANTIATE_TEST_SUITE_P(Steps, BlurRatio, testing::Values(0.05, 0.1, 0.2, 0.25, 0.3, 0.4));
+
+TEST(Blurred, InclinedTurnedVignettedBoards)
+{
+	const struct { double incline, direction, turn, ratio; } cases[] = { { 30, 20, 100, 0.2 }, { 45, 110, 215, 0.15 }, { 60, 20, 300, 0.1 } };
+	for (const auto& c : cases)
+	{
+		Scene scene = Frontal(c.ratio);
+		Aim(scene, 125, 87.5, 500, c.incline, c.direction, c.turn);
+		scene.vignetting = 5;
+		scene.lens_points = 300;
+		scene.eight_bit = true;
+		const Errors e = Measure(scene);
+		// Squares of 40 px frontal, of 15 to 25 across at 60 degrees, and a fifth of the light in the corners.
+		EXPECT_LT(e.corner, 0.15) << c.incline;
+		EXPECT_LT(e.blur, 0.1) << c.incline;
+		EXPECT_LT(e.dropped, 5u) << c.incline;
+		EXPECT_LT(e.corner_sigmas, 2) << c.incline;
+		EXPECT_LT(e.blur_sigmas, 2) << c.incline;
+	}
+}
+
+TEST(Blurred, TooMuchIsRefusedWithTheRatio)
+{
+	for (const double ratio : { 0.6, 0.7 })
+		try
 		{
-			Scene scene = Frontal(0.2);
-			Aim(scene, 125, 87.5, 500, incline, 20, turn);
-			scene.vignetting = 5;
-			std::printf("incline %g turn %g: ", incline, turn);
-			try { Measure(scene); } catch (const Error& e) { std::printf("%s\n", e.what()); }
+			Scene scene = Frontal(ratio);
+			scene.lens_points = 200;
+			Measure(scene);
+			ADD_FAILURE() << ratio << " was measured";
 		}
+		catch (const Error& e)
+		{
+			EXPECT_NE(std::string(e.what()).find("of a square"), std::string::npos) << e.what();
+		}
+}
+
+/// The share of the unit disc in a wedge against a sum over a grid of 2000 x 2000 points.
+TEST(Blurred, WedgeShareIsTheArea)
+{
+	for (const auto& [t1, t2, angle] : { std::tuple{ 0.0, 0.0, 1.57 }, std::tuple{ 0.3, -0.5, 1.0 }, std::tuple{ -0.7, 0.6, 2.4 },
+		std::tuple{ -0.9, -0.95, 0.4 }, std::tuple{ 0.9, 0.9, 1.5 }, std::tuple{ -1.2, 0.2, 1.1 }, std::tuple{ -0.8, -0.8, 3.0 } })
+	{
+		const int n = 2000;
+		long inside = 0, disc = 0;
+		for (int j = 0; j < n; ++j)
+			for (int i = 0; i < n; ++i)
+			{
+				const double x = (2 * i + 1.0) / n - 1, y = (2 * j + 1.0) / n - 1;
+				disc += x * x + y * y < 1;
+				inside += x * x + y * y < 1 && x > t1 && x * std::cos(angle) + y * std::sin(angle) > t2;
+			}
+		const Wedge w = WedgeShare(t1, t2, angle);
+		// A border of length 2 through 2000 points: some 1e-4 of the disc.
+		EXPECT_NEAR(w.share, double(inside) / double(disc), 3e-4);
+		const double h = 1e-6;
+		EXPECT_NEAR(w.d_t1, (WedgeShare(t1 + h, t2, angle).share - WedgeShare(t1 - h, t2, angle).share) / (2 * h), 1e-6);
+		EXPECT_NEAR(w.d_t2, (WedgeShare(t1, t2 + h, angle).share - WedgeShare(t1, t2 - h, angle).share) / (2 * h), 1e-6);
+	}
 }
 
 }
