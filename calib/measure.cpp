@@ -73,7 +73,9 @@ EdgeOutcome MeasureReduced(const Reduced& r, const EdgePlace& place, double star
 
 void MeasureOne(const cv::Mat& grey, const CornerGrid& grid, const Reduced& reduced, Measured& m)
 {
-	m.outcome = MeasureLoneEdge(grey, grid, m.place, m.edge);
+	// Large pictures are not searched at full size for edges that the reduced one shows to run into each other.
+	const bool alone = reduced.factor == 1 || MeasureLoneEdge(reduced.grey, reduced.grid, m.place, m.edge) == EdgeOutcome::MEASURED;
+	m.outcome = alone ? MeasureLoneEdge(grey, grid, m.place, m.edge) : EdgeOutcome::TOO_BLURRED;
 	if (m.outcome == EdgeOutcome::MEASURED)
 		return;
 	m.with_neighbours = true;

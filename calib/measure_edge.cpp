@@ -321,11 +321,13 @@ EdgeOutcome MeasureLoneEdge(const cv::Mat& grey, const CornerGrid& grid, const E
 		const double reach = std::min(axes.gap - radius - 1.5, 1.5 * radius + 6);
 		if (reach < 1.1 * radius + 2 || radius > LONE_RATIO * axes.Side() + 1.5)
 			return EdgeOutcome::TOO_BLURRED;
-		samples = Thin(Collect(grey, s, axes, radius, reach), round == 0 ? 500 : 6000);
+		// A blur that fills the window is not known well enough yet for the full number to be of use.
+		const bool rough = round == 0 || (round == 1 && radius > 0.15 * axes.Side());
+		samples = Thin(Collect(grey, s, axes, radius, reach), rough ? 500 : 6000);
 		fit = FitEdge(samples, LoneEdge(axes.normal.x(), axes.normal.y()), round == 0 ? 0.5 * radius : radius);
 		if (!fit.valid)
 			return EdgeOutcome::FAILED;
-		settled = std::abs(fit.radius - radius) < 0.05 * radius + 0.1;
+		settled = (!rough || round == 0) && std::abs(fit.radius - radius) < 0.05 * radius + 0.1;
 		radius = fit.radius;
 	}
 	if (radius > LONE_RATIO * axes.Side() || axes.gap - radius - 1.5 < 1.1 * radius + 2)
