@@ -94,7 +94,8 @@ TEST_P(BlurRatio, CornersAndBlurOfAFrontalBoard)
 	EXPECT_LT(e.corner, ratio <= 0.2 ? 0.06 : 0.15);
 	EXPECT_LT(e.blur, std::max(0.1, 0.01 * ratio * 40));
 	EXPECT_EQ(e.dropped, 0u);
-	// A sigma is honest within a factor of 2 either way.
+	// A sigma is honest within a factor of 2 either way. At 0.4 this and the corners are at their bounds: seeds 1, 2, 3 give
+	// 0.106, 0.149, 0.124 px; 1.37, 1.97, 1.69 sigma; blur 1.89, 1.92, 2.00 sigma.
 	EXPECT_GT(e.corner_sigmas, 0.5);
 	EXPECT_LT(e.corner_sigmas, 2);
 	EXPECT_GT(e.blur_sigmas, 0.5);
