@@ -90,8 +90,9 @@ unwritable_folder)
 	refuses 3 blocked calibrate --board 12x9 --square 25 --pitch 0.02 --untilted "$target/untilted-1.jpg" --out blocked/result ;;
 no_board) calibrate 1 "untilted.jpg: no board" "$photos/scene/untilted.jpg" ;;
 detect_csv)
-	expect 0 detect --board 12x9 "$target/untilted-1.jpg" --csv corners.csv
-	prints "88 corners, 157 edges"
+	expect 0 detect --board 12x9 "$target/untilted-1.jpg" --csv corners.csv --overlay seen
+	prints "88 corners, 157 edges.*of a square, median"
+	[ -s seen/1-untilted-1.png ] || fail "no overlay"
 	[ "$(head -n 1 corners.csv)" = "file,column,row,x_px,y_px,sigma_px" ] || fail "header of corners.csv"
 	[ "$(head -n 1 corners-edges.csv)" = "file,x_px,y_px,nx,ny,blur_px,sigma_px" ] || fail "header of corners-edges.csv"
 	[ "$(wc -l <corners.csv)" = 89 ] || fail "88 corners expected"
