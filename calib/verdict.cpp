@@ -35,6 +35,7 @@ public:
 			OnePhotograph(s);
 			Tellers(s);
 		}
+		Priors();
 		Correlations();
 		Limit();
 		return verdict;
@@ -116,6 +117,21 @@ private:
 		if (apart > 3 * sigma && apart > 0.05)
 			Say(apart > 0.5 && apart > 5 * sigma ? Grade::POOR : Grade::FAIR, fmt::format("state {}: blur and geometry, each alone, disagree by {:.2f} degrees ({:.0f} sigma); blur decides. "
 				"Was the board moved between the states, or the camera?", NameOf(s), apart, apart / sigma));
+	}
+
+	void Priors()
+	{
+		const Solution& s = c.solution;
+		for (const Prior& prior : c.task.priors)
+		{
+			const double f = s.focal_length.value, d = s.aperture_diameter.value;
+			const double found = prior.quantity == Quantity::FOCAL_LENGTH ? f : prior.quantity == Quantity::F_NUMBER ? f / d : prior.quantity == Quantity::IMAGE_DISTANCE ? s.w_mm.value
+				: prior.quantity == Quantity::FOCUS_DISTANCE ? s.focus_distance.value : d;
+			const double pull = std::abs(found - prior.value) / std::max(prior.sigma, 1e-4 * prior.value);
+			if (pull > 3)
+				Say(pull > 6 ? Grade::POOR : Grade::FAIR, fmt::format("{} was given as {:.5g} +- {:.2g}, the photographs pull it to {:.5g}: are --square, --pitch and the value right?",
+					prior.Name(), prior.value, prior.sigma, found));
+		}
 	}
 
 	void Correlations()

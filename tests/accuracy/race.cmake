@@ -26,9 +26,10 @@ set(race_command race --ours "${CMAKE_BINARY_DIR}/bin/povray" --stock "${TILT_LE
 	--scenes "${CMAKE_CURRENT_SOURCE_DIR}/scenes" --settings "${CMAKE_CURRENT_SOURCE_DIR}/race_settings.json"
 	--work "${CMAKE_BINARY_DIR}/race" --out "${PROJECT_SOURCE_DIR}/out/accuracy" --jobs "${TILT_LENS_RACE_JOBS}")
 set(calibrator_command calibrator_cost --photos "${PROJECT_SOURCE_DIR}/scenes/boxes/photos/target" --out "${PROJECT_SOURCE_DIR}/out/accuracy")
+set(ablation_command calibrator_ablation --photos "${TILTCAL_ABLATION_PHOTOS}" --out "${PROJECT_SOURCE_DIR}/out/accuracy")
 set(tiltcost_command tiltcost_predictions --tiltcost "$<TARGET_FILE:tiltcost>" --povray "${CMAKE_BINARY_DIR}/bin/povray"
 	--race-scenes "${CMAKE_CURRENT_SOURCE_DIR}/scenes" --scenes "${PROJECT_SOURCE_DIR}/scenes" --out "${PROJECT_SOURCE_DIR}/out/accuracy")
 # What is out of its bounds is said in the report, which is made all the same.
-add_custom_target(accuracy COMMAND ${nothing_command} COMMAND ${calibrator_command} COMMAND ${tiltcost_command} || "${CMAKE_COMMAND}" -E true
+add_custom_target(accuracy COMMAND ${nothing_command} COMMAND ${calibrator_command} COMMAND ${ablation_command} COMMAND ${tiltcost_command} || "${CMAKE_COMMAND}" -E true
 	COMMAND ${race_command} DEPENDS povray USES_TERMINAL VERBATIM COMMENT "out/accuracy/report.html (about an hour)")
 add_custom_target(accuracy-quick COMMAND ${race_command} --quick DEPENDS povray USES_TERMINAL VERBATIM COMMENT "The race, quick")

@@ -215,7 +215,7 @@ void WritePage(const RaceReport& report, const fs::path& out, const fs::path& wo
 		<< (report.reused_stock ? "<li><b>Stock's times come from an earlier race</b>: not interleaved.</li>\n" : "") << "</ul>\n";
 	for (const Contest& contest : report.contests)
 		file << Section(contest, report, work);
-	for (const char* name : {"tiltcost.html", "cost-of-nothing.html", "calibrator-cost.html"})
+	for (const char* name : {"tiltcost.html", "cost-of-nothing.html", "calibrator-cost.html", "calibrator-ablation.html"})
 	{
 		std::ifstream fragment(out / name);
 		if (fragment)

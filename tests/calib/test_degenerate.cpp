@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// The hard cases of calibration (DESIGN.md section 3): solved, or refused with what to photograph instead, or with a
+// verdict that says so; never a confident wrong answer.
+
+#include "calibrate.h"
+#include "error.h"
+#include "synthetic_lens.h"
+#include "verdict.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+namespace
+{
+
+using namespace tiltcal;
+using synthetic::Lens;
+using synthetic::MakeTask;
+using synthetic::Noise;
+using synthetic::Photograph;
+using synthetic::TiltError;
+using testing::HasSubstr;
+
+const Noise NOISE{ 0.03, 0.06, 5 };
+
+Lens Tilted(double tilt, double direction = 0)
+{
+	Lens lens;
+	lens.tilt = tilt;
+	lens.direction = direction;
+	return lens;
+}
+
+/// Refused with advice, or right within what it says of itself.
+void ExpectNoConfidentError(const Task& task, const Lens& lens, const std::string& model = "auto")
+{
+	try
+	{
+		const Calibration c = Calibrate(task, model, Poses::AUTO);
+		const StateLens& found = c.solution.states[1];
+		const double sigma = std::hypot(found.lens_tilt.sigma, found.tilt_direction.sigma * std::abs(lens.tilt) * 0.01745);
+		// 0.01: what is of second order in the aperture.
+		EXPECT_TRUE(TiltError(found, lens) < 4 * sigma + 0.01 || Judge(c).grade == Grade::POOR)
+			<< "off by " << TiltError(found, lens) << " with a sigma of " << sigma << ", verdict " << Name(Judge(c).grade);
+	}
+	catch (const Error& e)
+	{
+		EXPECT_EQ(e.Code(), EXIT_REFUSED);
+		EXPECT_THAT(e.what(), HasSubstr("hotograph"));
+	}
+}
+
+TEST(Degenerate, BlurWithNoSignChange)
+{
+	// Boards that lie wholly before, or wholly behind the focus at 620 mm.
+	for (const double shift : { -220.0, 300.0 })
+	{
+		const Lens tilted = Tilted(3);
+		ExpectNoConfidentError(MakeTask({ Photograph("untilted", Lens(), NOISE, 6, shift), Photograph("tilted", tilted, NOISE, 6, shift) }), tilted, "plane");
+	}
+}
+
+TEST(Degenerate, TiltedBoardsAllParallelToTheSensor)
+{
+	const Lens tilted = Tilted(4, 50);
+	ExpectNoConfidentError(MakeTask({ Photograph("untilted", Lens(), NOISE), synthetic::PhotographParallel("tilted", tilted, 600) }), tilted, "plane");
+}
+
+TEST(Degenerate, OnePhotographOfAState)
+{
+	const Lens tilted = Tilted(5);
+	const Task task = MakeTask({ Photograph("untilted", Lens(), NOISE), Photograph("tilted", tilted, NOISE, 1) });
+	ExpectNoConfidentError(task, tilted, "plane");
+	const Calibration c = Calibrate(task, "plane", Poses::AUTO);
+	const Verdict verdict = Judge(c);
+	EXPECT_NE(verdict.grade, Grade::GOOD);
+	EXPECT_THAT(verdict.remarks, testing::Contains(testing::Field(&Remark::text, HasSubstr("at least three poses"))));
+}
+
+TEST(Degenerate, NoTiltIsFoundToBeNone)
+{
+	const Calibration c = Calibrate(MakeTask({ Photograph("untilted", Lens(), NOISE), Photograph("tilted", Lens(), { 0.03, 0.06, 6 }) }), "plane", Poses::AUTO);
+	EXPECT_LT(std::abs(c.solution.states[1].lens_tilt.value), 4 * c.solution.states[1].lens_tilt.sigma + 0.003);
+}
+
+TEST(Degenerate, AWrongSquareSizeScalesLengthsButNotAngles)
+{
+	// Nothing in the pictures tells a board's size; the focal length does, and may be given.
+	const Lens tilted = Tilted(5, 20);
+	Task task = MakeTask({ Photograph("untilted", Lens(), NOISE), Photograph("tilted", tilted, NOISE) });
+	task.board.square_mm *= 1.1;
+	const Calibration c = Calibrate(task, "plane", Poses::AUTO);
+	EXPECT_NEAR(c.solution.w_mm.value, tilted.w, 0.05);
+	EXPECT_NEAR(c.solution.focus_distance.value, 1.1 * Lens().FocusDistance(), 2);
+	task.priors = { { Quantity::FOCAL_LENGTH, tilted.f, 0.01 } };
+	// U and w cannot both keep 1/f = 1/U + 1/w then: said, not smoothed over.
+	const Calibration held = Calibrate(task, "plane", Poses::AUTO);
+	const Verdict verdict = Judge(held);
+	EXPECT_EQ(verdict.grade, Grade::POOR);
+	EXPECT_THAT(verdict.remarks, testing::Contains(testing::Field(&Remark::text, HasSubstr("--square"))));
+}
+
+TEST(Degenerate, ANoisyLensIsSaidToBe)
+{
+	const Lens tilted = Tilted(5);
+	const Calibration c = Calibrate(MakeTask({ Photograph("untilted", Lens(), { 0.5, 1.5, 2 }), Photograph("tilted", tilted, { 0.5, 1.5, 3 }) }), "plane", Poses::AUTO);
+	EXPECT_LT(TiltError(c.solution.states[1], tilted), 4 * c.solution.states[1].lens_tilt.sigma + 4 * c.solution.states[1].tilt_direction.sigma * 0.0873);
+	EXPECT_NE(Judge(c).grade, Grade::GOOD);
+}
+
+TEST(Priors, ReplaceWhatThePhotographsDoNotTell)
+{
+	const Lens tilted = Tilted(5);
+	Task task = MakeTask({ Photograph("untilted", Lens(), { 0.3, 0.06, 2 }, 3), Photograph("tilted", tilted, { 0.3, 0.06, 3 }, 3) });
+	const Calibration free = Calibrate(task, "plane", Poses::AUTO);
+	task.priors = { { Quantity::FOCAL_LENGTH, tilted.f, 1e-6 * tilted.f } };
+	const Calibration fixed = Calibrate(task, "plane", Poses::AUTO);
+	EXPECT_NEAR(fixed.solution.focal_length.value, tilted.f, 1e-3);
+	EXPECT_LT(fixed.solution.w_mm.sigma, 0.5 * free.solution.w_mm.sigma);
+	EXPECT_LT(std::abs(fixed.solution.w_mm.value - tilted.w), 4 * fixed.solution.w_mm.sigma + 0.01);
+}
+
+TEST(Priors, AreParsed)
+{
+	const Prior fixed = ParseFix("focal_length=45"), known = ParsePrior("f_number=2.8:0.1");
+	EXPECT_EQ(fixed.quantity, Quantity::FOCAL_LENGTH);
+	EXPECT_DOUBLE_EQ(fixed.value, 45);
+	EXPECT_EQ(known.quantity, Quantity::F_NUMBER);
+	EXPECT_DOUBLE_EQ(known.sigma, 0.1);
+	for (const char* const wrong : { "focal_length", "focal_length=", "focal_length=-1", "focal_length=45:1", "length=45", "focal_length=4x" })
+		EXPECT_THROW(ParseFix(wrong), Error) << wrong;
+	for (const char* const wrong : { "f_number=2.8", "f_number=2.8:", "f_number=2.8:0", "f_number=nan:1" })
+		EXPECT_THROW(ParsePrior(wrong), Error) << wrong;
+}
+
+}
