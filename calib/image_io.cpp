@@ -3,9 +3,11 @@
 #include "image_io.h"
 
 #include "error.h"
+#include "exif.h"
 #include "exr_io.h"
 #include "files.h"
 #include "jpeg_io.h"
+#include "picture_file.h"
 #include "png_io.h"
 #include "tiff_io.h"
 
@@ -72,9 +74,12 @@ void CheckLight(const std::string& file, const cv::Mat& linear)
 			file, least, most));
 }
 
-cv::Mat ReadAndLinearise(const std::string& file, const Transfer& transfer)
+cv::Mat ReadAndLinearise(const std::string& file, const Transfer& transfer, PhotographFacts* facts)
 {
-	cv::Mat image = Decode(ReadPictureFile(file));
+	const PictureFile picture = ReadPictureFile(file);
+	cv::Mat image = Decode(picture);
+	if (facts)
+		*facts = ReadFacts(picture, image.cols);
 	switch (image.depth())
 	{
 	case CV_8U: return Linearise<uchar>(image, transfer);
@@ -88,11 +93,11 @@ cv::Mat ReadAndLinearise(const std::string& file, const Transfer& transfer)
 
 }
 
-cv::Mat ReadLinear(const std::string& file, const Transfer& transfer)
+cv::Mat ReadLinear(const std::string& file, const Transfer& transfer, PhotographFacts* facts)
 {
 	try
 	{
-		return ReadAndLinearise(file, transfer);
+		return ReadAndLinearise(file, transfer, facts);
 	}
 	catch (const Error&)
 	{

@@ -14,6 +14,8 @@
 namespace tiltcal
 {
 
+struct PhotographFacts;
+
 /// Reads PNG, JPEG, TIFF (8, 16 bit integer or float) or OpenEXR into linear light:
 /// CV_32FC1 or CV_32FC3 (blue first), 1 = the integer formats' full scale.
 /// The transfer curve applies to the integer formats; floating point is linear.
@@ -21,7 +23,8 @@ namespace tiltcal
 /// applied, in any format: pixels are where the sensor had them.
 /// Throws FileError, and nothing else, for anything that is not a whole picture of these
 /// (picture_file.h has the limits): also CMYK, NaN or infinite pixels, negative light.
-cv::Mat ReadLinear(const std::string& file, const Transfer& transfer);
+/// `facts`, when given, receives what EXIF says.
+cv::Mat ReadLinear(const std::string& file, const Transfer& transfer, PhotographFacts* facts = nullptr);
 
 /// Luminance (Rec. 709 / sRGB primaries) as CV_32FC1.
 cv::Mat Luminance(const cv::Mat& linear);
