@@ -47,6 +47,12 @@ void Build(const BlurFit& fit, ceres::Problem& problem, Unknowns& x, Free free, 
 		problem.AddResidualBlock(new BlurCostFunction(new BlurCost{ fit.model, o, weight, fit.w_mm }),
 			new ceres::HuberLoss(2.0), &x.d, &x.floor_squared, &x.power, x.curvature.data(), x.state[o.state].data());
 	}
+	if (!fit.priors.empty() && (free == Free::EVERYTHING || state == 0) && problem.HasParameterBlock(x.state[0].data()))
+	{
+		double* const w = const_cast<double*>(&fit.w_mm);   // held
+		AddPriors(fit.priors, fit.model, w, 1, &x.d, &x.power, x.state[0].data(), problem);
+		problem.SetParameterBlockConstant(w);
+	}
 	HoldUnused(fit.model, x, problem);
 	if (free != Free::EVERYTHING)
 		problem.SetParameterBlockConstant(x.curvature.data());

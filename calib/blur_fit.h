@@ -58,6 +58,7 @@ struct BlurFit
 	const std::vector<Observation>& observations;
 	double w_mm;
 	double model_sigma;    ///< px: what the model leaves out, common to all edges
+	const std::vector<Prior>& priors;
 
 	/// Predicted minus measured, px.
 	double Residual(const Observation& o, const Unknowns& x) const;

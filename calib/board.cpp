@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 
 namespace tiltcal
@@ -23,6 +24,23 @@ Board ParseBoard(const std::string& text, double square_mm)
 		throw UsageError(fmt::format("--square {}: give the side of a square in mm, above 0", square_mm));
 	board.square_mm = square_mm;
 	return board;
+}
+
+BlurRatios RatiosOf(const Photo& photo)
+{
+	std::vector<double> ratios;
+	for (const Edge& e : photo.edges)
+		ratios.push_back(e.BlurRatio());
+	if (ratios.empty())
+		return {};
+	std::sort(ratios.begin(), ratios.end());
+	return { ratios.front(), ratios[ratios.size() / 2], ratios.back() };
+}
+
+std::string RatioText(const Photo& photo)
+{
+	const BlurRatios r = RatiosOf(photo);
+	return fmt::format("blur radius {:.2f} to {:.2f} of a square, median {:.2f}", r.least, r.most, r.median);
 }
 
 }

@@ -39,7 +39,7 @@ struct Corner
 	double sigma = 0;   ///< standard deviation of x and of y
 };
 
-/// Brightness of an edge in a narrow strip along it (edge_profile.h).
+/// Brightness of an edge in a narrow strip along it (binned_profile.h).
 struct ProfileBin
 {
 	float x = 0;       ///< distance from the edge, px, dark side negative
@@ -61,7 +61,11 @@ struct Edge
 	double offset_sigma = 0, slope_sigma = 0;
 	double low = 0, high = 0;    ///< linear light on both sides
 	double noise = 0;            ///< RMS residual of a pixel, linear light
-	std::vector<ProfileBin> profile;
+	std::vector<ProfileBin> profile;   ///< of an edge that was measured alone, else empty
+	double square_px = 0;        ///< what lies between edges here: the square's shorter side in the picture
+
+	/// Blur radius over the side of a square.
+	double BlurRatio() const { return 0.5 * blur / square_px; }
 };
 
 /// Everything measured in one photograph. Corners row by row: index row * InnerColumns + column.
@@ -72,9 +76,19 @@ struct Photo
 	PhotographFacts facts;       ///< EXIF, nominal
 	std::vector<Corner> corners;
 	std::vector<Edge> edges;
-	int edges_dropped = 0;       ///< blurred into their neighbours, or not fitted
+	int edges_dropped = 0;       ///< blurred beyond measuring, or not fitted
 	double saturated_share = 0;  ///< edges whose bright side is clipped
 };
+
+/// Blur radius over the square's side in the edges of a photograph; all 0 when it has none.
+struct BlurRatios
+{
+	double least = 0, median = 0, most = 0;
+};
+BlurRatios RatiosOf(const Photo& photo);
+
+/// "blur radius 0.02 to 0.31 of a square, median 0.15".
+std::string RatioText(const Photo& photo);
 
 }
 

@@ -27,18 +27,16 @@ const double PINHOLE_RMS = 0.4;
 
 void LogPhoto(const Photo& photo, size_t number, size_t total)
 {
-	double least = 1e9, most = 0;
+	double least = photo.edges.empty() ? 0 : 1e9, most = 0;
 	for (const Edge& e : photo.edges)
 	{
 		least = std::min(least, e.blur);
 		most = std::max(most, e.blur);
 	}
-	if (photo.edges.empty())
-		least = 0;
-	spdlog::info("[{}/{}] {}: {} corners, {} edges, blur {:.1f} to {:.1f} px", number, total, photo.file,
-		photo.corners.size(), photo.edges.size(), least, most);
+	spdlog::info("[{}/{}] {}: {} corners, {} edges, blur {:.1f} to {:.1f} px; {}", number, total, photo.file,
+		photo.corners.size(), photo.edges.size(), least, most, RatioText(photo));
 	if (photo.edges_dropped > 0)
-		spdlog::warn("{}: {} of {} edges left out, blurred into their neighbours or too noisy", photo.file, photo.edges_dropped,
+		spdlog::warn("{}: {} of {} edges left out, too blurred or too noisy", photo.file, photo.edges_dropped,
 			photo.edges_dropped + int(photo.edges.size()));
 	if (photo.saturated_share > 0.05)
 		spdlog::warn("{}: {:.0f} % of the edges have a clipped bright side, which narrows their blur: expose less", photo.file, 100 * photo.saturated_share);
@@ -160,6 +158,12 @@ void Refine(const Task& task, Refinement refinement, Calibration& c)
 		c.render = c.solution;
 }
 
+}
+
+void CheckPitch(double pitch_mm)
+{
+	if (!(pitch_mm > 0 && pitch_mm < 1))
+		throw UsageError(fmt::format("--pitch {}: give the distance of pixel centres on the sensor in mm, such as 0.00655", pitch_mm));
 }
 
 Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, double pitch_mm, const Transfer& transfer, const DetectOptions& options, const EdgeChoice& choice)

@@ -16,6 +16,9 @@
 namespace tiltcal
 {
 
+/// Throws UsageError for a --pitch (mm) that no sensor has.
+void CheckPitch(double pitch_mm);
+
 struct StateFiles
 {
 	std::string name;

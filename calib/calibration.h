@@ -10,6 +10,7 @@
 #include "board.h"
 #include "camera.h"
 #include "lens_model.h"
+#include "priors.h"
 
 #include <string>
 #include <vector>
@@ -37,6 +38,7 @@ struct Task
 	double pitch_mm = 0;           ///< distance of pixel centres on the sensor
 	int width = 0, height = 0;
 	std::vector<State> states;     ///< untilted first
+	std::vector<Prior> priors;     ///< what is known beforehand
 };
 
 /// Where the boards and the sensor are. Indices: state, then photo.
@@ -69,6 +71,14 @@ struct StateLens
 	int edges = 0;
 };
 
+/// What a fit without one photograph finds for that photograph's state, and how well it foretells it.
+struct LeftOut
+{
+	size_t state = 0, photo = 0;
+	double tilt_change = 0;   ///< length of the change of the tilt vector, degrees
+	double rms_blur = 0;      ///< of the photograph that was left out, px
+};
+
 /// One model's answer.
 struct Solution
 {
@@ -80,6 +90,7 @@ struct Solution
 	Estimate field_curvature;             ///< C, 1/mm; the mean of the two below
 	Estimate tangential_curvature, sagittal_curvature;
 	double held_out_px = 0;  ///< held_out.h; 0 when it was not asked for or cannot be had
+	std::vector<LeftOut> left_out;   ///< held_out.h: each photograph in turn
 	std::string failure;     ///< why there is no answer; empty when there is one
 };
 

@@ -28,6 +28,13 @@ using Distortion = std::array<double, 5>;
 /// Principal point, pixels.
 using Point = std::array<double, 2>;
 
+/// The direction of the picture's centre is (shift, w) in camera axes (x right, y up), pixels:
+/// tilt_lens's `shift` divided by the pitch.
+inline Point ShiftOfPicture(int width, int height, const Point& principal_point)
+{
+	return { 0.5 * (width - 1) - principal_point[0], -(0.5 * (height - 1) - principal_point[1]) };
+}
+
 /// X_camera = R X_board + t; the board is z = 0. mm.
 template<typename T>
 inline Vec3<T> CameraFromBoard(const T* pose, double x, double y)

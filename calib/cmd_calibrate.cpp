@@ -28,7 +28,7 @@ struct Options
 	std::string board, transfer = "srgb", model = "auto", poses = "auto", refine = "edges", out;
 	double square = 0;
 	std::optional<double> pitch;
-	std::vector<std::string> untilted, tilted;
+	std::vector<std::string> untilted, tilted, fix, prior;
 	DetectOptions detect;
 	EdgeChoice edges;
 };
@@ -106,15 +106,22 @@ void Run(const Options& o)
 	CheckModel(o.model);
 	const Poses poses = ParsePoses(o.poses);
 	const Refinement refinement = ParseRefinement(o.refine);
-	if (o.pitch && !(*o.pitch > 0 && *o.pitch < 1))
-		throw UsageError(fmt::format("--pitch {}: give the distance of pixel centres on the sensor in mm, such as 0.00655", *o.pitch));
+	if (o.pitch)
+		CheckPitch(*o.pitch);
 	if (o.edges.most != 0 && o.edges.most < FEWEST_EDGES)
 		throw UsageError(fmt::format("--edges-per-photo {}: give 0 for all edges, or at least {}", o.edges.most, FEWEST_EDGES));
 	const std::vector<StateFiles> states = States(o);
+	std::vector<Prior> priors;
+	for (const std::string& text : o.fix)
+		priors.push_back(ParseFix(text));
+	for (const std::string& text : o.prior)
+		priors.push_back(ParsePrior(text));
 	const double pitch = o.pitch ? *o.pitch : PitchFromExif(AllFiles(states));
 	PrepareFolder(o.out);
 
-	const Calibration c = Calibrate(MeasureAll(states, board, pitch, transfer, o.detect, o.edges), o.model, poses, refinement);
+	Task task = MeasureAll(states, board, pitch, transfer, o.detect, o.edges);
+	task.priors = priors;
+	const Calibration c = Calibrate(task, o.model, poses, refinement);
 	for (const std::string& words : CompareWithExif(c))
 		spdlog::warn("{}", words);
 	WriteEverything(c, transfer, o.out);
@@ -141,6 +148,9 @@ void AddCalibrate(CLI::App& app)
 	c->add_option("--poses", o->poses, "shared: photograph n shows the board in one pose in every state; own: not; auto: see for itself")->capture_default_str();
 	c->add_option("--refine", o->refine, "Last step, all numbers together: edges: places and blur widths of the edges; photometric: the brightness across them; "
 		"none: geometry first, then blur")->capture_default_str();
+	c->add_option("--fix", o->fix, "NAME=VALUE: what is known exactly: focal_length, f_number, image_distance, focus_distance, aperture_diameter "
+		"(mm; untilted); may be repeated");
+	c->add_option("--prior", o->prior, "NAME=VALUE:SIGMA: what is known about; the same names; may be repeated");
 	c->add_option("--edges-per-photo", o->edges.most, "Measure only N edges of every photograph, spread evenly over the board and both directions: "
 		"faster, less accurate. 0: all")->capture_default_str();
 	c->add_flag("--any-orientation", o->detect.any_orientation, "Accept a board that stands upside down (a mirrored picture looks the same)");

@@ -4,7 +4,9 @@
 
 #include "error.h"
 #include "files.h"
+#include "image_io.h"
 #include "measure.h"
+#include "overlay.h"
 #include "write_csv.h"
 
 #include <fmt/format.h>
@@ -21,7 +23,7 @@ namespace
 
 struct Options
 {
-	std::string board, transfer = "srgb", csv;
+	std::string board, transfer = "srgb", csv, overlay;
 	std::vector<std::string> photos;
 	DetectOptions detect;
 };
@@ -33,21 +35,31 @@ std::string EdgesName(const std::string& file)
 	return (path.parent_path() / (path.stem().string() + "-edges" + path.extension().string())).string();
 }
 
+/// DIR/N-NAME.png: photographs of several folders may have one name.
+std::string OverlayName(const std::string& folder, size_t number, const std::string& file)
+{
+	return (std::filesystem::path(folder) / fmt::format("{}-{}.png", number, std::filesystem::path(file).stem().string())).string();
+}
+
 void Run(const Options& o)
 {
 	// The side of a square plays no part in pixels.
 	const Board board = ParseBoard(o.board, 1);
 	const Transfer transfer = ParseTransfer(o.transfer);
 	const std::vector<std::string> files = ExpandGlobs(o.photos, "PHOTO");
-	const std::string folder = std::filesystem::path(o.csv).parent_path().string();
-	PrepareFolder(folder.empty() ? "." : folder);
+	PrepareFolderOf(o.csv);
+	if (!o.overlay.empty())
+		PrepareFolder(o.overlay);
 	std::vector<Photo> photos;
 	for (const std::string& file : files)
 	{
-		photos.push_back(MeasurePhoto(file, board, transfer, o.detect));
+		cv::Mat grey;
+		photos.push_back(MeasurePhoto(file, board, transfer, o.detect, {}, &grey));
 		const Photo& p = photos.back();
 		spdlog::info("[{}/{}] {}: {} corners, {} edges", photos.size(), files.size(), file, p.corners.size(), p.edges.size());
-		fmt::print("{}: {} corners, {} edges, {} edges left out\n", file, p.corners.size(), p.edges.size(), p.edges_dropped);
+		fmt::print("{}: {} corners, {} edges, {} edges left out, {}\n", file, p.corners.size(), p.edges.size(), p.edges_dropped, RatioText(p));
+		if (!o.overlay.empty())
+			WritePng(OverlayName(o.overlay, photos.size(), file), DrawMeasured(grey, p));
 	}
 	WriteText(o.csv, CornersCsv(photos));
 	WriteText(EdgesName(o.csv), EdgesCsv(photos));
@@ -62,11 +74,14 @@ void AddDetect(CLI::App& app)
 	c->add_option("--board", o->board, "Squares of the board, columns x rows, such as 12x9 (squares, not inner corners)")->required();
 	c->add_option("photos", o->photos, "PHOTO...: pictures, names or quoted patterns")->required();
 	c->add_option("--csv", o->csv, "FILE for the corners; the edges go to FILE with -edges before the suffix")->required();
+	c->add_option("--overlay", o->overlay, "DIR for pictures of what was measured: corners, edges and their blur discs; created if missing");
 	c->add_option("--transfer", o->transfer, "Transfer curve of 8 and 16 bit pictures: srgb, linear or a gamma; OpenEXR is linear")->capture_default_str();
 	c->add_flag("--any-orientation", o->detect.any_orientation, "Accept a board that stands upside down (a mirrored picture looks the same)");
 	c->footer("Example:\n  tiltcal detect --board 12x9 'target/untilted-*.png' --csv corners.csv\n\n"
 		"Columns: file,column,row,x_px,y_px,sigma_px and file,x_px,y_px,nx,ny,blur_px,sigma_px;\n"
-		"pixel centres at integers, (0, 0) top left, y downwards.\n"
+		"pixel centres at integers, (0, 0) top left, y downwards; blur is the diameter of the blur disc.\n"
+		"Blur radii up to 0.5 of a square are measured; more blurred photographs are refused. Above 0.4 corners and\n"
+		"widths are rough, and their sigmas too small by up to three times.\n"
 		"Exit codes: 0 done, 1 refused, 2 wrong usage, 3 unreadable or unwritable file.");
 	c->callback([o] { Run(*o); });
 }

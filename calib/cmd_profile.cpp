@@ -9,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <memory>
 
 namespace tiltcal
@@ -38,10 +37,7 @@ void Run(const Options& o)
 			o.a, a.cols, a.rows, o.b, b.cols, b.rows));
 	PrepareFolder(o.out);
 	if (!o.json.empty())
-	{
-		const std::string folder = std::filesystem::path(o.json).parent_path().string();
-		PrepareFolder(folder.empty() ? "." : folder);
-	}
+		PrepareFolderOf(o.json);
 	const Comparison c = Compare(a, b, lines, match);
 	WriteComparison(c, a, o.out);
 	if (!o.json.empty())

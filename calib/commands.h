@@ -11,9 +11,13 @@
 namespace tiltcal
 {
 
-void AddCalibrate(CLI::App& app);
+void AddTarget(CLI::App& app);
 void AddDetect(CLI::App& app);
+void AddCalibrate(CLI::App& app);
+void AddPose(CLI::App& app);
 void AddProfile(CLI::App& app);
+void AddExport(CLI::App& app);
+void AddImport(CLI::App& app);
 
 }
 

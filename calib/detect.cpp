@@ -3,7 +3,7 @@
 #include "detect.h"
 
 #include "error.h"
-#include "image_io.h"
+#include "find_board.h"
 
 #include <fmt/format.h>
 #include <opencv2/calib3d.hpp>
@@ -19,74 +19,6 @@ namespace
 {
 
 using Points = std::vector<cv::Point2f>;
-
-/// 8-bit sRGB-coded picture, brightest percent at white: what the detector is made for.
-cv::Mat ForDetector(const cv::Mat& grey)
-{
-	std::vector<float> values;
-	const int step = std::max(1, static_cast<int>(std::sqrt(grey.total() / 1e5)));
-	for (int y = 0; y < grey.rows; y += step)
-		for (int x = 0; x < grey.cols; x += step)
-			values.push_back(grey.at<float>(y, x));
-	const size_t k = values.size() * 99 / 100;
-	std::nth_element(values.begin(), values.begin() + static_cast<long>(k), values.end());
-	return ToDisplay(grey, 0.9 / std::max(values[k], 1e-6f));
-}
-
-/// Corners at full scale, found at `scale`; empty when not found.
-Points FindAtScale(const cv::Mat& picture, cv::Size size, double scale, int flags, cv::Mat* meta = nullptr)
-{
-	cv::Mat small;
-	cv::resize(picture, small, cv::Size(), scale, scale, cv::INTER_AREA);
-	Points points;
-	cv::Mat unused;
-	const int all = flags | cv::CALIB_CB_NORMALIZE_IMAGE | cv::CALIB_CB_ACCURACY;
-	if (!cv::findChessboardCornersSB(small, size, points, all, meta ? *meta : unused))
-		return {};
-	// Pixel centres are at integers, so scaling is about (-0.5, -0.5).
-	for (cv::Point2f& p : points)
-		p = cv::Point2f(static_cast<float>((p.x + 0.5) / scale - 0.5), static_cast<float>((p.y + 0.5) / scale - 0.5));
-	return points;
-}
-
-/// Scales to try: blurred corners are found best when squares are some 20 to 60 pixels.
-std::vector<double> Scales(const cv::Mat& picture)
-{
-	const double longer = std::max(picture.cols, picture.rows);
-	std::vector<double> scales;
-	for (const double target : { 900.0, 1500.0, 600.0 })
-		if (longer > target * 1.2)
-			scales.push_back(target / longer);
-	scales.push_back(1);
-	return scales;
-}
-
-/// Names the size of the board that is really there, if there is one.
-std::string WhatIsThere(const cv::Mat& picture, const Board& board)
-{
-	cv::Mat meta;
-	const double scale = std::min(1.0, 900.0 / std::max(picture.cols, picture.rows));
-	FindAtScale(picture, cv::Size(3, 3), scale, cv::CALIB_CB_LARGER, &meta);
-	// Small grids are found in any texture; they would mislead.
-	const int longer = std::max(meta.cols, meta.rows), shorter = std::min(meta.cols, meta.rows);
-	if (shorter >= 4 && !(longer == board.InnerColumns() && shorter == board.InnerRows()))
-		return fmt::format("it shows about {}x{} squares; is --board {}x{} right (squares, not inner corners), and is the whole board in the picture?",
-			longer + 1, shorter + 1, board.columns, board.rows);
-	return "show the whole board with its white margin, evenly lit, and keep the blur below a fifth of a square";
-}
-
-Points FindBoard(const cv::Mat& grey, const Board& board, const std::string& file)
-{
-	const cv::Mat picture = ForDetector(grey);
-	const cv::Size size(board.InnerColumns(), board.InnerRows());
-	for (const double scale : Scales(picture))
-	{
-		Points points = FindAtScale(picture, size, scale, 0);
-		if (!points.empty())
-			return points;
-	}
-	throw Refused(fmt::format("{}: no board of {}x{} squares found: {}", file, board.columns, board.rows, WhatIsThere(picture, board)));
-}
 
 cv::Point2f& At(Points& p, const Board& b, int column, int row) { return p[static_cast<size_t>(row * b.InnerColumns() + column)]; }
 
@@ -216,7 +148,7 @@ void Orient(Points& points, const cv::Mat& grey, const Board& b, const DetectOpt
 
 std::vector<Corner> DetectCorners(const cv::Mat& grey, const Board& board, const DetectOptions& options, const std::string& file)
 {
-	Points points = FindBoard(grey, board, file);
+	Points points = FindCheckerboard(grey, board, file);
 	RefuseWrongSize(grey, BoardToPixels(points, board), board, file);
 	Orient(points, grey, board, options, file);
 

@@ -22,7 +22,7 @@ struct DetectOptions
 };
 
 /// Inner corners of the board in `grey` (linear light, CV_32FC1), row by row.
-/// findChessboardCornersSB at about half scale, then cornerSubPix at full scale on
+/// FindCheckerboard, then cornerSubPix at full scale on
 /// linear light. Square (0, 0) is the black one at the board's top left when the colours
 /// tell the board's two ends apart, otherwise the one at the top left of the picture.
 /// Throws Refused: no board, another size, mirrored; `file` is named in the message.

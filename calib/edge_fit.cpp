@@ -2,8 +2,6 @@
 
 #include "edge_fit.h"
 
-#include "disc_edge.h"
-
 #include <Eigen/Dense>
 
 #include <algorithm>
@@ -22,11 +20,9 @@ using Matrix = Eigen::Matrix<double, PARAMETERS, PARAMETERS>;
 const double MIN_RADIUS = 0.05;
 const double HUBER = 2.5;   // in standard deviations: JPEG blocks and specks, not the shape
 
-struct Box { double a, b; };
-
-double Predict(const Vector& p, const EdgeSample& sample, const Box& box, Vector* gradient)
+double Predict(const Vector& p, const EdgeSample& sample, const EdgeProfile& profile, Vector* gradient)
 {
-	const EdgeResponse e = PixelEdgeResponse(sample.x - p[OFFSET] - p[SLOPE] * sample.s, p[RADIUS], box.a, box.b);
+	const EdgeResponse e = profile.At(sample, p[OFFSET], p[SLOPE], p[RADIUS]);
 	const double shade = 1 + p[SHADE_X] * sample.x + p[SHADE_S] * sample.s;
 	const double step = p[HIGH] - p[LOW];
 	const double flat = p[LOW] + step * e.value;
@@ -54,13 +50,13 @@ struct Normal
 };
 
 /// Normal equations of the robust problem at p.
-Normal Assemble(const Vector& p, const std::vector<EdgeSample>& samples, const Box& box, double scale)
+Normal Assemble(const Vector& p, const std::vector<EdgeSample>& samples, const EdgeProfile& profile, double scale)
 {
 	Normal n;
 	Vector g;
 	for (const EdgeSample& sample : samples)
 	{
-		const double r = sample.value - Predict(p, sample, box, &g);
+		const double r = sample.value - Predict(p, sample, profile, &g);
 		const double u = std::abs(r) / scale;
 		const double w = u <= HUBER ? 1 : HUBER / u;
 		n.cost += u <= HUBER ? u * u : 2 * HUBER * u - HUBER * HUBER;
@@ -74,21 +70,21 @@ Normal Assemble(const Vector& p, const std::vector<EdgeSample>& samples, const B
 }
 
 /// 1.4826 times the median of |residual|: the standard deviation, deaf to outliers.
-double ResidualScale(const Vector& p, const std::vector<EdgeSample>& samples, const Box& box)
+double ResidualScale(const Vector& p, const std::vector<EdgeSample>& samples, const EdgeProfile& profile)
 {
 	std::vector<double> r;
 	r.reserve(samples.size());
 	for (const EdgeSample& sample : samples)
-		r.push_back(std::abs(sample.value - Predict(p, sample, box, nullptr)));
+		r.push_back(std::abs(sample.value - Predict(p, sample, profile, nullptr)));
 	std::nth_element(r.begin(), r.begin() + static_cast<long>(r.size() / 2), r.end());
 	return std::max(1.4826 * r[r.size() / 2], 1e-6 * std::abs(p[HIGH] - p[LOW]) + 1e-12);
 }
 
 /// One Levenberg-Marquardt descent at a fixed robust scale. False: singular.
-bool Descend(Vector& p, const std::vector<EdgeSample>& samples, const Box& box, double scale, int iterations)
+bool Descend(Vector& p, const std::vector<EdgeSample>& samples, const EdgeProfile& profile, double scale, int iterations)
 {
 	double lambda = 1e-3;
-	Normal n = Assemble(p, samples, box, scale);
+	Normal n = Assemble(p, samples, profile, scale);
 	for (int i = 0; i < iterations; ++i)
 	{
 		Matrix A = n.JtJ;
@@ -99,7 +95,7 @@ bool Descend(Vector& p, const std::vector<EdgeSample>& samples, const Box& box, 
 		Vector q = p + step;
 		q[RADIUS] = std::max(std::abs(q[RADIUS]), MIN_RADIUS);
 		// Steps are nearly always good, so the derivatives are computed with the cost.
-		const Normal next = Assemble(q, samples, box, scale);
+		const Normal next = Assemble(q, samples, profile, scale);
 		if (next.cost <= n.cost)
 		{
 			const bool settled = std::abs(q[RADIUS] - p[RADIUS]) < 1e-3 && std::abs(step[OFFSET]) < 1e-3
@@ -143,12 +139,18 @@ Vector Start(const std::vector<EdgeSample>& samples, double start_radius)
 
 }
 
-EdgeFit FitEdge(const std::vector<EdgeSample>& samples, double nx, double ny, double start_radius)
+LoneEdge::LoneEdge(double nx, double ny) : box_a(std::abs(nx)), box_b(std::abs(ny)) {}
+
+EdgeResponse LoneEdge::At(const EdgeSample& sample, double offset, double slope, double radius) const
+{
+	return PixelEdgeResponse(sample.x - offset - slope * sample.s, radius, box_a, box_b);
+}
+
+EdgeFit FitEdge(const std::vector<EdgeSample>& samples, const EdgeProfile& profile, double start_radius)
 {
 	EdgeFit fit;
 	if (samples.size() < 40)
 		return fit;
-	const Box box{ std::abs(nx), std::abs(ny) };
 	Vector p = Start(samples, start_radius);
 	if (!(p[HIGH] - p[LOW] > 0.01 * std::abs(p[HIGH])))
 		return fit;
@@ -157,11 +159,11 @@ EdgeFit FitEdge(const std::vector<EdgeSample>& samples, double nx, double ny, do
 	double scale = 0.25 * (p[HIGH] - p[LOW]);
 	for (int round = 0; round < 3; ++round)
 	{
-		if (!Descend(p, samples, box, scale, 30))
+		if (!Descend(p, samples, profile, scale, 30))
 			return fit;
-		scale = ResidualScale(p, samples, box);
+		scale = ResidualScale(p, samples, profile);
 	}
-	const Normal n = Assemble(p, samples, box, scale);
+	const Normal n = Assemble(p, samples, profile, scale);
 	const double variance = n.squares / std::max(n.weight - PARAMETERS, 1.0);
 	const Matrix covariance = n.JtJ.ldlt().solve(Matrix::Identity()) * variance;
 	if (!covariance.allFinite() || !(p[HIGH] > p[LOW]))
@@ -181,6 +183,22 @@ EdgeFit FitEdge(const std::vector<EdgeSample>& samples, double nx, double ny, do
 	fit.rms = std::sqrt(n.squares / n.weight);
 	fit.valid = true;
 	return fit;
+}
+
+EdgeShift FirstOrderShift(const std::vector<EdgeSample>& samples, const EdgeProfile& profile, const EdgeProfile& other, const EdgeFit& fit)
+{
+	Vector p, g;
+	p << fit.low, fit.high, fit.shade_x, fit.shade_s, fit.offset, fit.slope, fit.radius;
+	Matrix JtJ = Matrix::Zero();
+	Vector Jtr = Vector::Zero();
+	for (const EdgeSample& sample : samples)
+	{
+		const double value = Predict(p, sample, profile, &g);
+		JtJ += g * g.transpose();
+		Jtr += (Predict(p, sample, other, nullptr) - value) * g;
+	}
+	const Vector shift = JtJ.ldlt().solve(Jtr);
+	return { shift[OFFSET], shift[SLOPE], shift[RADIUS] };
 }
 
 }

@@ -106,6 +106,12 @@ void PrepareFolder(const std::string& folder)
 		throw FileError(fmt::format("{}: cannot write in this folder; change its permissions or give another with --out", folder));
 }
 
+void PrepareFolderOf(const std::string& file)
+{
+	const std::string folder = fs::path(file).parent_path().string();
+	PrepareFolder(folder.empty() ? "." : folder);
+}
+
 void WriteAtomically(const std::string& file, const std::function<bool(const std::string&)>& write)
 {
 	const std::string temporary = TemporaryName(file);

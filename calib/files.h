@@ -21,6 +21,9 @@ std::vector<std::string> ExpandGlobs(const std::vector<std::string>& patterns, c
 /// Throws FileError. Called before the work starts, not after it.
 void PrepareFolder(const std::string& folder);
 
+/// PrepareFolder for the folder that `file` is to be written in.
+void PrepareFolderOf(const std::string& file);
+
 /// Lets `write` produce the file under a temporary name beside `file` (same suffix)
 /// and renames it, so that an interrupted run leaves the old file or none.
 /// `write` returns false, or throws Error, when it cannot. Throws FileError.

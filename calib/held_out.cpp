@@ -2,6 +2,8 @@
 
 #include "held_out.h"
 
+#include "tilt_angles.h"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -11,8 +13,22 @@
 namespace tiltcal
 {
 
-double HeldOutError(const BlurFit& fit, const Unknowns& x, double most)
+namespace
 {
+
+/// The lens tilt as a vector, degrees.
+Eigen::Vector2d TiltVector(const BlurFit& fit, const Unknowns& x, size_t state)
+{
+	const TiltAngles a = AnglesFromPlane(fit.Plane(x, state), fit.w_mm);
+	const double direction = a.tilt_direction * 3.14159265358979323846 / 180;
+	return a.lens_tilt * Eigen::Vector2d(std::sin(direction), std::cos(direction));
+}
+
+}
+
+HeldOut HoldOut(const BlurFit& fit, const Unknowns& x, double most)
+{
+	HeldOut result;
 	std::map<size_t, std::set<size_t>> photos;
 	for (const Observation& o : fit.observations)
 		photos[o.state].insert(o.photo);
@@ -26,15 +42,19 @@ double HeldOutError(const BlurFit& fit, const Unknowns& x, double most)
 			std::vector<Observation> others, own;
 			for (const Observation& o : fit.observations)
 				(o.state == state && o.photo == photo ? own : others).push_back(o);
-			const BlurFit reduced{ fit.model, others, fit.w_mm, fit.model_sigma };
+			const BlurFit reduced{ fit.model, others, fit.w_mm, fit.model_sigma, fit.priors };
 			Unknowns y = x;
 			if (reduced.Minimise(y, Free::EVERYTHING, 0) >= 1e300)
-				return HUGE_VAL;
+				return { HUGE_VAL, {} };
+			double squares = 0;
 			for (const Observation& o : own)
-				sum += std::pow(std::min(std::abs(fit.Residual(o, y)), most), 2);
+				squares += std::pow(std::min(std::abs(fit.Residual(o, y)), most), 2);
+			sum += squares;
 			count += own.size();
+			result.photos.push_back({ state, photo, (TiltVector(fit, y, state) - TiltVector(fit, x, state)).norm(), std::sqrt(squares / double(own.size())) });
 		}
-	return count ? std::sqrt(sum / double(count)) : 0;
+	result.rms = count ? std::sqrt(sum / double(count)) : 0;
+	return result;
 }
 
 }

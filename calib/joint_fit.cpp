@@ -56,6 +56,8 @@ void Build(const JointFit& fit, Geometry& g, Unknowns& x, ceres::Problem& proble
 		// A block of n standard normal residuals has the norm sqrt(n).
 		problem.AddResidualBlock(cost, new ceres::HuberLoss(2.5 * std::sqrt(double(cost->num_residuals()))), Blocks(g, x, s, p));
 	});
+	if (!fit.geometry_alone)
+		AddPriors(fit.task.priors, fit.model, &g.w_px, fit.task.pitch_mm, &x.d, &x.power, x.state[0].data(), problem);
 	HoldDistortion(g, problem);
 	HoldUnused(fit.model, x, problem);
 	for (size_t s = 0; s < g.principal_point.size(); ++s)
@@ -139,8 +141,12 @@ bool JointFit::Minimise(Geometry& g, Unknowns& x) const
 
 bool JointFit::Covariance(Geometry& g, Unknowns& x, Eigen::MatrixXd& out) const
 {
+	// Of the edges also where their brightness was fitted: what the model leaves out of a profile is common to all
+	// its bins, and would make the sigmas too small by the root of their number.
+	JointFit by_edges = *this;
+	by_edges.kind = Refinement::EDGES;
 	ceres::Problem problem;
-	Build(*this, g, x, problem);
+	Build(by_edges, g, x, problem);
 	ceres::Covariance::Options options;
 	options.algorithm_type = ceres::SPARSE_QR;   // fails on a singular problem, which is the answer wanted there
 	ceres::Covariance covariance(options);

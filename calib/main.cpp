@@ -37,9 +37,13 @@ int main(int argc, char** argv)
 	app.require_subcommand(1);
 	app.footer("Exit codes: 0 done, 1 refused or not converged, 2 wrong usage, 3 unreadable or unwritable file.\n"
 		"'tiltcal SUBCOMMAND --help' shows options, units, defaults and an example.");
-	tiltcal::AddCalibrate(app);
+	tiltcal::AddTarget(app);
 	tiltcal::AddDetect(app);
+	tiltcal::AddCalibrate(app);
+	tiltcal::AddPose(app);
 	tiltcal::AddProfile(app);
+	tiltcal::AddExport(app);
+	tiltcal::AddImport(app);
 	try
 	{
 		app.parse(argc, argv);

@@ -2,13 +2,14 @@
 
 #include "measure.h"
 
-#include "edge_fit.h"
-#include "edge_profile.h"
+#include "error.h"
 #include "image_io.h"
+#include "measure_edge.h"
 #include "spread_order.h"
 
 #include <Eigen/Dense>
-#include <opencv2/calib3d.hpp>
+#include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -20,218 +21,97 @@ namespace tiltcal
 namespace
 {
 
-using Vec2 = Eigen::Vector2d;
+/// After the first, of photographs with edges that run into each other: corners, which start some tenths of a pixel
+/// off, have settled to some thousandths.
+const int BLURRED_SWEEPS = 4;
 
-/// The line through a and b: signed distance of p, positive to the right of a->b (y down).
-double Distance(const Vec2& a, const Vec2& b, const Vec2& p)
+/// What became of one place, in the order of SpreadOrder.
+struct Measured
 {
-	const Vec2 d = (b - a).normalized();
-	return d.x() * (p.y() - a.y()) - d.y() * (p.x() - a.x());
-}
-
-/// Corner positions with one ring of extrapolated ones around them.
-class Grid
-{
-public:
-	Grid(const Photo& photo, const Board& b) : board(b), points(photo.corners.size())
-	{
-		std::vector<cv::Point2d> pixels, squares;
-		for (const Corner& c : photo.corners)
-		{
-			points[Index(c.column, c.row)] = Vec2(c.x, c.y);
-			pixels.emplace_back(c.x, c.y);
-			squares.emplace_back(c.column, c.row);
-		}
-		squares_from_pixels = cv::Matx33d(cv::findHomography(pixels, squares));
-	}
-
-	/// (column, row) of a pixel, in squares from the first inner corner.
-	Vec2 Square(const Vec2& pixel) const
-	{
-		const cv::Vec3d p = squares_from_pixels * cv::Vec3d(pixel.x(), pixel.y(), 1);
-		return { p[0] / p[2], p[1] / p[2] };
-	}
-
-	Vec2 At(int i, int j) const
-	{
-		const int ci = std::clamp(i, 0, board.InnerColumns() - 1), cj = std::clamp(j, 0, board.InnerRows() - 1);
-		if (ci == i && cj == j)
-			return points[Index(i, j)];
-		// One step beyond: as far outside as the neighbour is inside.
-		return 2 * points[Index(ci, cj)] - At(2 * ci - i, 2 * cj - j);
-	}
-
-private:
-	size_t Index(int i, int j) const { return static_cast<size_t>(j * board.InnerColumns() + i); }
-
-	Board board;
-	std::vector<Vec2> points;
-	cv::Matx33d squares_from_pixels;
+	EdgePlace place;
+	EdgeOutcome outcome = EdgeOutcome::FAILED;
+	bool with_neighbours = false;   ///< by MeasureBlurredEdge
+	Edge edge;
 };
 
-/// The surroundings of one edge from A to B: the parallel edges on both sides and the
-/// cross edges at both ends, whose blur must not reach the pixels that are used.
-struct Surroundings
+/// The picture reduced so that squares are some 50 px: edges that run into each other are wide, and need no more.
+struct Reduced
 {
-	Vec2 A, B;
-	Vec2 left[2], right[2];    // next parallel edges
-	Vec2 start[2], end[2];     // cross edges through A and through B
-
-	/// Least distance of p from any of the four, negative when p lies beyond one.
-	double Clearance(const Vec2& p) const
-	{
-		const double side = std::min(-Distance(right[0], right[1], p), Distance(left[0], left[1], p));
-		const double ends = std::min(std::abs(Distance(start[0], start[1], p)), std::abs(Distance(end[0], end[1], p)));
-		return std::min(side, ends);
-	}
+	cv::Mat grey;
+	double factor = 1;      ///< full size over reduced size
+	CornerGrid grid;
 };
 
-Surroundings SurroundingsOf(const Grid& grid, int i, int j, bool along_columns)
+Reduced Reduce(const cv::Mat& grey, const Board& board, const Photo& photo)
 {
-	const int di = along_columns, dj = !along_columns;
-	// "right" of A->B in a picture with y down: the next row, or the previous column.
-	const int ri = along_columns ? 0 : -1, rj = along_columns ? 1 : 0;
-	Surroundings s;
-	s.A = grid.At(i, j);
-	s.B = grid.At(i + di, j + dj);
-	s.right[0] = grid.At(i + ri, j + rj);
-	s.right[1] = grid.At(i + di + ri, j + dj + rj);
-	s.left[0] = grid.At(i - ri, j - rj);
-	s.left[1] = grid.At(i + di - ri, j + dj - rj);
-	s.start[0] = s.left[0];
-	s.start[1] = s.right[0];
-	s.end[0] = s.left[1];
-	s.end[1] = s.right[1];
-	return s;
-}
-
-struct Axes
-{
-	Vec2 middle, normal;
-	Vec2 along;          // (normal.y, -normal.x)
-	double length;
-};
-
-/// Pixels within `reach` of the edge that other edges, blurred by `radius`, do not touch.
-std::vector<EdgeSample> Collect(const cv::Mat& grey, const Surroundings& s, const Axes& axes, double radius, double reach)
-{
-	const double margin = radius + 1.5;   // a pixel's half diagonal and the lens's own blur
-	const Vec2 extent = 0.5 * axes.length * axes.along.cwiseAbs() + reach * axes.normal.cwiseAbs();
-	const int x0 = std::max(0, static_cast<int>(std::ceil(axes.middle.x() - extent.x())));
-	const int x1 = std::min(grey.cols - 1, static_cast<int>(std::floor(axes.middle.x() + extent.x())));
-	const int y0 = std::max(0, static_cast<int>(std::ceil(axes.middle.y() - extent.y())));
-	const int y1 = std::min(grey.rows - 1, static_cast<int>(std::floor(axes.middle.y() + extent.y())));
-	std::vector<EdgeSample> samples;
-	for (int y = y0; y <= y1; ++y)
-		for (int x = x0; x <= x1; ++x)
-		{
-			const Vec2 p(x, y);
-			const Vec2 d = p - axes.middle;
-			const double across = axes.normal.dot(d), along = axes.along.dot(d);
-			if (std::abs(across) > reach || std::abs(along) > 0.5 * axes.length || s.Clearance(p) < margin)
-				continue;
-			samples.push_back({ across, along, grey.at<float>(y, x) });
-		}
-	return samples;
-}
-
-/// Every k-th sample so that no more than `most` are left: enough for the noise not to
-/// matter, and the time does not grow with the size of the picture.
-std::vector<EdgeSample> Thin(const std::vector<EdgeSample>& samples, size_t most)
-{
-	// An odd step does not fall in with the rows, whose lengths differ anyway.
-	const size_t step = samples.size() / most | 1;
-	std::vector<EdgeSample> thinned;
-	for (size_t k = 0; k < samples.size(); k += step)
-		thinned.push_back(samples[k]);
-	return thinned;
-}
-
-/// Dark to bright across the edge, from the light a quarter square away on both sides.
-bool BrightOnNormalSide(const cv::Mat& grey, const Surroundings& s, const Axes& axes)
-{
-	const double quarter = 0.25 * std::min(std::abs(Distance(s.right[0], s.right[1], axes.middle)), std::abs(Distance(s.left[0], s.left[1], axes.middle)));
-	const auto light = [&](double side)
+	const CornerGrid full(photo, board);
+	const double side = (full.At(1, 1) - full.At(0, 0)).norm() / std::sqrt(2.0);
+	const int k = std::max(1, static_cast<int>(side / 50));
+	Photo small = photo;
+	for (Corner& c : small.corners)
 	{
-		double sum = 0;
-		for (int k = -3; k <= 3; ++k)
-		{
-			const Vec2 p = axes.middle + side * axes.normal + (k * axes.length / 16) * axes.along;
-			sum += grey.at<float>(std::clamp(static_cast<int>(std::lround(p.y())), 0, grey.rows - 1),
-				std::clamp(static_cast<int>(std::lround(p.x())), 0, grey.cols - 1));
-		}
-		return sum;
-	};
-	return light(2 * quarter) > light(-2 * quarter);
-}
-
-/// One edge; false when it cannot be measured.
-bool MeasureEdge(const cv::Mat& grey, const Grid& grid, int i, int j, bool along_columns, Edge& edge)
-{
-	const Surroundings s = SurroundingsOf(grid, i, j, along_columns);
-	Axes axes;
-	axes.middle = 0.5 * (s.A + s.B);
-	axes.length = (s.B - s.A).norm();
-	axes.along = (s.B - s.A) / axes.length;
-	axes.normal = Vec2(-axes.along.y(), axes.along.x());
-	if (!BrightOnNormalSide(grey, s, axes))
-	{
-		axes.normal = -axes.normal;
-		axes.along = -axes.along;
+		c.x = (c.x + 0.5) / k - 0.5;
+		c.y = (c.y + 0.5) / k - 0.5;
 	}
+	cv::Mat reduced = grey;
+	// Whole pixels only: each reduced one is the mean of k x k.
+	if (k > 1)
+		cv::resize(grey(cv::Rect(0, 0, grey.cols / k * k, grey.rows / k * k)), reduced, cv::Size(grey.cols / k, grey.rows / k), 0, 0, cv::INTER_AREA);
+	return { reduced, double(k), CornerGrid(small, board) };
+}
 
-	const double gap = std::min(std::abs(Distance(s.right[0], s.right[1], axes.middle)), std::abs(Distance(s.left[0], s.left[1], axes.middle)));
-	if (gap < 8 || axes.length < 8)
-		return false;
+/// MeasureBlurredEdge with lengths of the full picture.
+EdgeOutcome MeasureReduced(const Reduced& r, const EdgePlace& place, double start_radius, const Vec2& growth, bool last, Edge& edge)
+{
+	const EdgeOutcome outcome = MeasureBlurredEdge(r.grey, r.grid, place, start_radius / r.factor, growth, last, edge);
+	edge.x = (edge.x + 0.5) * r.factor - 0.5;
+	edge.y = (edge.y + 0.5) * r.factor - 0.5;
+	for (double* length : { &edge.blur, &edge.blur_sigma, &edge.offset_sigma, &edge.square_px })
+		*length *= r.factor;
+	return outcome;
+}
 
-	// The window depends on the blur: start from a guess, measure, choose again until
-	// the window fits the blur that was measured in it.
-	EdgeFit fit;
-	std::vector<EdgeSample> samples;
-	double radius = 0.12 * std::min(gap, axes.length);
-	bool settled = false;
-	for (int round = 0; round < 6 && !settled; ++round)
+void MeasureOne(const cv::Mat& grey, const CornerGrid& grid, const Reduced& reduced, Measured& m)
+{
+	// Large pictures are not searched at full size for edges that the reduced one shows to run into each other.
+	const bool alone = reduced.factor == 1 || MeasureLoneEdge(reduced.grey, reduced.grid, m.place, m.edge) == EdgeOutcome::MEASURED;
+	m.outcome = alone ? MeasureLoneEdge(grey, grid, m.place, m.edge) : EdgeOutcome::TOO_BLURRED;
+	if (m.outcome == EdgeOutcome::MEASURED)
+		return;
+	m.with_neighbours = true;
+	const Vec2 A = grid.At(m.place.column, m.place.row), B = grid.At(m.place.column + m.place.along_columns, m.place.row + !m.place.along_columns);
+	for (const double start : { 0.3, 0.5 })
 	{
-		const double reach = std::min(gap - radius - 1.5, 1.5 * radius + 6);
-		if (reach < 1.1 * radius + 2)
-			return false;
-		samples = Thin(Collect(grey, s, axes, radius, reach), round == 0 ? 500 : 6000);
-		fit = FitEdge(samples, axes.normal.x(), axes.normal.y(), round == 0 ? 0.5 * radius : radius);
-		if (!fit.valid)
-			return false;
-		settled = std::abs(fit.radius - radius) < 0.05 * radius + 0.1;
-		radius = fit.radius;
+		m.outcome = MeasureReduced(reduced, m.place, start * (B - A).norm(), Vec2::Zero(), false, m.edge);
+		if (m.outcome != EdgeOutcome::LOW_CONTRAST)
+			break;
 	}
-	if (!settled || gap - radius - 1.5 < 1.1 * radius + 2)
-		return false;
-	if (std::abs(fit.offset) > 0.15 * gap || std::abs(fit.slope) > 0.1 || fit.radius_sigma > 0.25 * fit.radius + 0.5)
-		return false;
+}
 
-	double s_mean = 0;
-	for (const EdgeSample& sample : samples)
-		s_mean += sample.s;
-	s_mean /= static_cast<double>(samples.size());
-	const Vec2 where = axes.middle + s_mean * axes.along + (fit.offset + fit.slope * s_mean) * axes.normal;
-	const Vec2 square = grid.Square(where);
-	edge.column = i;
-	edge.row = j;
-	edge.along_columns = along_columns;
-	edge.board_column = along_columns ? square.x() : i;
-	edge.board_row = along_columns ? j : square.y();
-	edge.x = where.x();
-	edge.y = where.y();
-	edge.nx = axes.normal.x();
-	edge.ny = axes.normal.y();
-	edge.slope = fit.slope;
-	edge.blur = 2 * fit.radius;
-	edge.blur_sigma = 2 * fit.radius_sigma;
-	edge.offset_sigma = fit.offset_sigma;
-	edge.slope_sigma = fit.slope_sigma;
-	edge.low = fit.low;
-	edge.high = fit.high;
-	edge.noise = fit.rms;
-	edge.profile = EdgeProfile(samples, fit);
-	return true;
+/// Gradient of the blur radius around `m`, a plane through what was measured within two and a half squares.
+Vec2 Growth(const std::vector<Measured>& all, const Measured& m)
+{
+	Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+	Eigen::Vector3d b = Eigen::Vector3d::Zero();
+	int count = 0;
+	for (const Measured& o : all)
+	{
+		// Nearer to the focus the radius has a kink, and the lines there do not matter.
+		if (o.outcome != EdgeOutcome::MEASURED || o.edge.BlurRatio() < 0.1)
+			continue;
+		const double di = o.edge.board_column - m.edge.board_column, dj = o.edge.board_row - m.edge.board_row;
+		if (di * di + dj * dj > 2.5 * 2.5)
+			continue;
+		const Eigen::Vector3d row(1, o.edge.x - m.edge.x, o.edge.y - m.edge.y);
+		A += row * row.transpose();
+		b += row * (0.5 * o.edge.blur);
+		++count;
+	}
+	if (count < 8)
+		return Vec2::Zero();
+	const Vec2 growth = A.ldlt().solve(b).tail<2>();
+	// The radius cannot change faster than this in front of a lens; a fit that says so has failed.
+	return growth.allFinite() && growth.norm() < 0.2 ? growth : Vec2(Vec2::Zero());
 }
 
 /// A corner as the intersection of the lines of its edges (the paper's features), least
@@ -252,7 +132,9 @@ bool Intersect(const std::vector<Edge>& edges, Corner& corner)
 		const double side = along.dot(Vec2(corner.x - e.x, corner.y - e.y));
 		const Vec2 normal = (nominal - e.slope * along).normalized();
 		const double variance = e.offset_sigma * e.offset_sigma + side * side * e.slope_sigma * e.slope_sigma;
-		const double weight = 1 / std::max(variance, 1e-8);
+		// Edges fitted with their neighbours use the same pixels twice: once in each direction.
+		const double shared = e.BlurRatio() > LONE_RATIO ? 2 : 1;
+		const double weight = 1 / std::max(shared * variance, 1e-8);
 		A += weight * normal * normal.transpose();
 		b += weight * normal * normal.dot(Vec2(e.x, e.y));
 		(e.along_columns ? columns : rows) = true;
@@ -267,43 +149,127 @@ bool Intersect(const std::vector<Edge>& edges, Corner& corner)
 	return true;
 }
 
+/// Whether the bright side is the one that the board's first square would have were it black. Past a blur radius of 0.86
+/// squares the contrast reverses, and such an edge differs from the others.
+bool BlackFirst(const Edge& e, const CornerGrid& grid)
+{
+	const Vec2 on = grid.Square(Vec2(e.x, e.y)), beside = grid.Square(Vec2(e.x + e.nx, e.y + e.ny));
+	const int step = (e.along_columns ? beside.y() - on.y() : beside.x() - on.x()) > 0 ? 1 : 0;
+	// Square (i, j) has the inner corner (i - 1, j - 1) at its top left.
+	const int i = e.column + (e.along_columns ? 1 : step), j = e.row + (e.along_columns ? step : 1);
+	return (i + j) % 2 != 0;
+}
+
+/// Runs `each(k)` for k in [from, to) on all threads.
+template<typename Function>
+void Parallel(size_t from, size_t to, const Function& each)
+{
+	cv::parallel_for_(cv::Range(static_cast<int>(from), static_cast<int>(to)), [&](const cv::Range& range)
+	{
+		for (int k = range.start; k < range.end; ++k)
+			each(static_cast<size_t>(k));
+	});
+}
+
+/// Measured edges, row by row: sums do not depend on the order in which the edges were chosen.
+std::vector<Edge> Good(const std::vector<Measured>& all, const CornerGrid& grid)
+{
+	std::vector<Edge> edges;
+	for (const Measured& m : all)
+		if (m.outcome == EdgeOutcome::MEASURED)
+			edges.push_back(m.edge);
+	const auto black = [&grid](const Edge& e) { return BlackFirst(e, grid); };
+	const bool most = 2 * std::count_if(edges.begin(), edges.end(), black) > static_cast<long>(edges.size());
+	edges.erase(std::remove_if(edges.begin(), edges.end(), [&](const Edge& e) { return black(e) != most; }), edges.end());
+	std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b)
+		{ return std::tuple(a.row, a.column, b.along_columns) < std::tuple(b.row, b.column, a.along_columns); });
+	return edges;
+}
+
+/// Once more with better corners and with the change of the blur over the board, which the first time knew nothing of.
+void Repeat(const cv::Mat& grey, const Board& board, Photo& photo, bool last, std::vector<Measured>& all)
+{
+	const Reduced reduced = Reduce(grey, board, photo);
+	const std::vector<Measured> before = all;
+	Parallel(0, all.size(), [&](size_t k)
+	{
+		if (before[k].with_neighbours && before[k].outcome == EdgeOutcome::MEASURED)
+			all[k].outcome = MeasureReduced(reduced, all[k].place, 0.5 * before[k].edge.blur, Growth(before, before[k]), last, all[k].edge);
+	});
+}
+
+/// Corners that no edges refine keep what the detector found, less sure the more the picture is blurred.
+void RefineCorners(Photo& photo)
+{
+	double blur = 0;
+	for (const Edge& e : photo.edges)
+		blur += e.blur / double(photo.edges.size());
+	for (Corner& corner : photo.corners)
+		if (!Intersect(photo.edges, corner))
+			corner.sigma = std::hypot(0.05, 0.03 * blur);
+}
+
+/// Too few edges are left to say anything: says which blur was seen.
+void RefuseTooBlurred(const std::vector<Measured>& all, const std::string& file)
+{
+	std::vector<double> ratios, contrasts;
+	for (const Measured& m : all)
+	{
+		if (m.edge.square_px > 0)
+			ratios.push_back(m.edge.BlurRatio());
+		if (m.outcome == EdgeOutcome::LOW_CONTRAST)
+			contrasts.push_back((m.edge.high - m.edge.low) / (m.edge.high + m.edge.low));
+	}
+	const auto beyond = std::count_if(all.begin(), all.end(), [](const Measured& m) { return m.outcome != EdgeOutcome::MEASURED && m.edge.square_px > 0; });
+	if (2 * beyond < static_cast<long>(all.size()) || ratios.empty())
+		return;
+	const auto median = [](std::vector<double>& v)
+	{
+		std::nth_element(v.begin(), v.begin() + static_cast<long>(v.size() / 2), v.end());
+		return v[v.size() / 2];
+	};
+	const std::string advice = "Stop down, move the board nearer to the plane of focus, or use a board of larger squares";
+	// A fit that fails or says less than the limit has taken contrast for blur.
+	if (!contrasts.empty() && (2 * static_cast<long>(contrasts.size()) > beyond || median(ratios) < MOST_RATIO))
+		throw Refused(fmt::format("{}: too blurred: what is left of the board's contrast ({:.2f}, at least {:.2f} is needed) shows a blur radius above {:.2f} of a square, "
+			"the most that can be measured. {}", file, median(contrasts), LEAST_CONTRAST, MOST_RATIO, advice));
+	throw Refused(fmt::format("{}: too blurred: the radius of the blur is {:.2f} of a square (median), {:.2f} can be measured at most. {}",
+		file, median(ratios), MOST_RATIO, advice));
+}
+
 }
 
 void MeasureEdges(const cv::Mat& grey, const Board& board, Photo& photo, const EdgeChoice& choice)
 {
-	const Grid grid(photo, board);
-	const std::vector<EdgePlace> places = SpreadOrder(board, choice.phase);
-	const size_t wanted = choice.most > 0 ? std::min(size_t(choice.most), places.size()) : places.size();
-	std::vector<Edge> edges(places.size());
-	std::vector<char> measured(places.size(), 0);
+	const CornerGrid grid(photo, board);
+	const Reduced reduced = Reduce(grey, board, photo);
+	std::vector<Measured> all;
+	for (const EdgePlace& place : SpreadOrder(board, choice.phase))
+		all.push_back({ place, EdgeOutcome::FAILED, false, {} });
+	const size_t wanted = choice.most > 0 ? std::min(size_t(choice.most), all.size()) : all.size();
 	size_t tried = 0, found = 0;
 	// Edges that fail are replaced by the next in the order.
-	while (found < wanted && tried < places.size())
+	while (found < wanted && tried < all.size())
 	{
-		const size_t end = std::min(tried + wanted - found, places.size());
-		cv::parallel_for_(cv::Range(static_cast<int>(tried), static_cast<int>(end)), [&](const cv::Range& range)
-		{
-			for (int k = range.start; k < range.end; ++k)
-			{
-				const size_t t = static_cast<size_t>(k);
-				measured[t] = MeasureEdge(grey, grid, places[t].column, places[t].row, places[t].along_columns, edges[t]);
-			}
-		});
-		found += static_cast<size_t>(std::count(measured.begin() + static_cast<long>(tried), measured.begin() + static_cast<long>(end), 1));
-		tried = end;
+		const size_t end = std::min(tried + wanted - found, all.size());
+		Parallel(tried, end, [&](size_t k) { MeasureOne(grey, grid, reduced, all[k]); });
+		for (; tried < end; ++tried)
+			found += all[tried].outcome == EdgeOutcome::MEASURED;
 	}
-	photo.edges.clear();
-	for (size_t k = 0; k < tried; ++k)
-		if (measured[k])
-			photo.edges.push_back(edges[k]);
-	// Row by row again: sums do not depend on the order in which the edges were chosen.
-	std::sort(photo.edges.begin(), photo.edges.end(), [](const Edge& a, const Edge& b)
-		{ return std::tuple(a.row, a.column, b.along_columns) < std::tuple(b.row, b.column, a.along_columns); });
+	all.resize(tried);
+	photo.edges = Good(all, grid);
+	RefineCorners(photo);
+	if (std::any_of(all.begin(), all.end(), [](const Measured& m) { return m.with_neighbours; }))
+		for (int sweep = 0; sweep < BLURRED_SWEEPS; ++sweep)
+		{
+			Repeat(grey, board, photo, sweep + 1 == BLURRED_SWEEPS, all);
+			photo.edges = Good(all, grid);
+			RefineCorners(photo);
+		}
+	RefuseTooBlurred(all, photo.file);
 	const auto clipped = std::count_if(photo.edges.begin(), photo.edges.end(), [](const Edge& e) { return e.high > 0.995; });
 	photo.edges_dropped = static_cast<int>(tried - photo.edges.size());
 	photo.saturated_share = photo.edges.empty() ? 0 : double(clipped) / double(photo.edges.size());
-	for (Corner& corner : photo.corners)
-		Intersect(photo.edges, corner);
 }
 
 Photo MeasurePhoto(const std::string& file, const Board& board, const Transfer& transfer, const DetectOptions& options, const EdgeChoice& choice, cv::Mat* grey)

@@ -22,7 +22,7 @@ namespace
 {
 
 const int SHIFT = 4;   // sub-pixel bits of OpenCV's drawing
-const cv::Scalar CORNER(80, 220, 80), ERROR(255, 80, 255), PREDICTED(255, 190, 60);
+const cv::Scalar CORNER(80, 220, 80), EDGE(255, 255, 120), ERROR(255, 80, 255), PREDICTED(255, 190, 60);
 const double FULL_COLOUR = 2;   // px of difference at which the ring is fully red or blue
 
 cv::Point Fixed(double x, double y)
@@ -37,6 +37,21 @@ cv::Scalar DifferenceColour(double difference)
 {
 	const double t = std::clamp(difference / FULL_COLOUR, -1.0, 1.0);
 	return t >= 0 ? cv::Scalar(0, 215 * (1 - t), 255) : cv::Scalar(255 * -t, 215 * (1 + t) + 90 * -t, 255 * (1 + t));
+}
+
+/// Dimmed and lifted, so that the rings stand out on black and on white squares.
+cv::Mat Canvas(const cv::Mat& grey)
+{
+	cv::Mat canvas;
+	cv::cvtColor(ToDisplay(grey), canvas, cv::COLOR_GRAY2BGR);
+	canvas.convertTo(canvas, CV_8UC3, 0.55, 40);
+	return canvas;
+}
+
+void Cross(cv::Mat& canvas, const Corner& k)
+{
+	cv::line(canvas, Fixed(k.x - 5, k.y), Fixed(k.x + 5, k.y), CORNER, 1, cv::LINE_AA, SHIFT);
+	cv::line(canvas, Fixed(k.x, k.y - 5), Fixed(k.x, k.y + 5), CORNER, 1, cv::LINE_AA, SHIFT);
 }
 
 void DrawEdges(cv::Mat& canvas, const Calibration& c, size_t s, size_t p)
@@ -54,8 +69,7 @@ void DrawCorners(cv::Mat& canvas, const Calibration& c, size_t s, size_t p)
 	for (const Corner& k : c.task.states[s].photos[p].corners)
 	{
 		const Point at = Reproject(c.task, MainGeometry(c), s, p, k.column, k.row);
-		cv::line(canvas, Fixed(k.x - 5, k.y), Fixed(k.x + 5, k.y), CORNER, 1, cv::LINE_AA, SHIFT);
-		cv::line(canvas, Fixed(k.x, k.y - 5), Fixed(k.x, k.y + 5), CORNER, 1, cv::LINE_AA, SHIFT);
+		Cross(canvas, k);
 		cv::line(canvas, Fixed(k.x, k.y), Fixed(k.x + 20 * (at[0] - k.x), k.y + 20 * (at[1] - k.y)), ERROR, 2, cv::LINE_AA, SHIFT);
 	}
 }
@@ -80,9 +94,9 @@ cv::Mat Legend(const Calibration& c, size_t s, size_t p, int width)
 	double sum = 0;
 	for (const Edge& e : photo.edges)
 		sum += std::pow(e.blur - PredictedBlur(c, s, p, e), 2);
-	cv::putText(strip, fmt::format("{} | state {} | model {} | lens tilt {:.2f} deg, direction {:.1f} deg | corners {:.2f} px RMS, blur {:.2f} px RMS",
+	cv::putText(strip, fmt::format("{} | state {} | model {} | lens tilt {:.2f} deg, direction {:.1f} deg | corners {:.2f} px RMS, blur {:.2f} px RMS | {}",
 		BaseName(photo.file), c.task.states[s].name, c.solution.model, lens.lens_tilt.value, lens.tilt_direction.value,
-		MainGeometry(c).photo_rms[s][p], std::sqrt(sum / double(std::max<size_t>(photo.edges.size(), 1)))),
+		MainGeometry(c).photo_rms[s][p], std::sqrt(sum / double(std::max<size_t>(photo.edges.size(), 1))), RatioText(photo)),
 		cv::Point(14, 26), cv::FONT_HERSHEY_SIMPLEX, 0.6, cv::Scalar(255, 255, 255), 1, cv::LINE_AA);
 	int x = 14;
 	x = Entry(strip, x, 48, CORNER, 1, false, "detected corner");
@@ -112,12 +126,30 @@ double PredictedBlur(const Calibration& c, size_t s, size_t p, const Edge& edge)
 	return std::sqrt(SquaredFootprintWidth(d, q, n, curvature, P, EdgeGradient(g, s, P, edge)) + floor * floor);
 }
 
+cv::Mat DrawMeasured(const cv::Mat& grey, const Photo& photo)
+{
+	cv::Mat canvas = Canvas(grey), whole;
+	for (const Edge& e : photo.edges)
+	{
+		const double x = e.ny + e.slope * e.nx, y = -e.nx + e.slope * e.ny, half = 0.35 * e.square_px / std::hypot(x, y);
+		cv::line(canvas, Fixed(e.x - half * x, e.y - half * y), Fixed(e.x + half * x, e.y + half * y), EDGE, 1, cv::LINE_AA, SHIFT);
+		cv::circle(canvas, Fixed(e.x, e.y), Length(e.blur / 2), DifferenceColour(0), 1, cv::LINE_AA, SHIFT);
+	}
+	for (const Corner& k : photo.corners)
+		Cross(canvas, k);
+	cv::Mat strip(64, canvas.cols, CV_8UC3, cv::Scalar(40, 40, 40));
+	cv::putText(strip, fmt::format("{} | {} edges left out | {}", BaseName(photo.file), photo.edges_dropped, RatioText(photo)),
+		cv::Point(14, 24), cv::FONT_HERSHEY_SIMPLEX, 0.5, cv::Scalar(255, 255, 255), 1, cv::LINE_AA);
+	int x = Entry(strip, 14, 46, CORNER, 1, false, "corner");
+	x = Entry(strip, x, 46, EDGE, 1, false, "edge");
+	Entry(strip, x, 46, DifferenceColour(0), 1, true, "blur disc");
+	cv::vconcat(canvas, strip, whole);
+	return whole;
+}
+
 cv::Mat DrawOverlay(const cv::Mat& grey, const Calibration& c, size_t s, size_t p)
 {
-	cv::Mat canvas;
-	// Dimmed and lifted, so that the rings stand out on black and on white squares.
-	cv::cvtColor(ToDisplay(grey), canvas, cv::COLOR_GRAY2BGR);
-	canvas.convertTo(canvas, CV_8UC3, 0.55, 40);
+	cv::Mat canvas = Canvas(grey);
 	DrawEdges(canvas, c, s, p);
 	DrawCorners(canvas, c, s, p);
 	cv::Mat whole;

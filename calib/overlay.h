@@ -16,6 +16,10 @@ namespace tiltcal
 /// difference. 8-bit BGR at the photograph's size, a legend in a strip below.
 cv::Mat DrawOverlay(const cv::Mat& grey, const Calibration& calibration, size_t state, size_t photo);
 
+/// What was measured in a photograph: corners (crosses), edges (the portion fitted, and its direction) and their blur discs.
+/// 8-bit BGR at the photograph's size, in a strip below the blur in terms of squares.
+cv::Mat DrawMeasured(const cv::Mat& grey, const Photo& photo);
+
 /// Predicted blur width of an edge by the calibration's own model, floor included, px.
 double PredictedBlur(const Calibration& calibration, size_t state, size_t photo, const Edge& edge);
 

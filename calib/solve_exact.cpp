@@ -43,9 +43,9 @@ struct Fitted
 };
 
 /// Fits everything from f.x on, with the common error that the residuals show.
-void Refine(LensModel model, double w_mm, Fitted& f)
+void Refine(LensModel model, const Task& task, double w_mm, Fitted& f)
 {
-	BlurFit fit{ model, f.observations, w_mm, f.model_sigma };
+	BlurFit fit{ model, f.observations, w_mm, f.model_sigma, task.priors };
 	for (int round = 0; round < 3; ++round)
 	{
 		if (fit.Minimise(f.x, Free::EVERYTHING, 0) >= 1e300)
@@ -62,19 +62,19 @@ Fitted FitFromNothing(LensModel model, const Task& task, const Geometry& geometr
 	f.observations = Observe(task, geometry);
 	RefuseTooFewEdges(task, f.observations);
 	const double w_mm = geometry.w_px * task.pitch_mm;
-	const BlurFit fit{ model, f.observations, w_mm, f.model_sigma };
+	const BlurFit fit{ model, f.observations, w_mm, f.model_sigma, task.priors };
 	f.x.state.assign(task.states.size(), StateNumbers{ 0, 0, 0 });
 	SearchUntilted(fit, task, geometry, f.x);
 	f.by_power.assign(task.states.size(), false);
 	for (size_t s = 1; s < task.states.size(); ++s)
 		f.by_power[s] = SearchTilted(fit, task, geometry, s, f.x);
-	Refine(model, w_mm, f);
+	Refine(model, task, w_mm, f);
 	return f;
 }
 
 Solution SolutionOf(LensModel model, const char* name, const Task& task, const Geometry& geometry, const Fitted& f)
 {
-	const BlurFit fit{ model, f.observations, geometry.w_px * task.pitch_mm, f.model_sigma };
+	const BlurFit fit{ model, f.observations, geometry.w_px * task.pitch_mm, f.model_sigma, task.priors };
 	Solution solution;
 	solution.model = name;
 	FillSolution(task, geometry, fit, f.x, fit.CovarianceOfPlanes(f.x, geometry.w_px_sigma * task.pitch_mm), solution);
@@ -84,9 +84,15 @@ Solution SolutionOf(LensModel model, const char* name, const Task& task, const G
 	return solution;
 }
 
-double HeldOut(LensModel model, const Task& task, const Geometry& geometry, const Fitted& f, double most)
+HeldOut LeaveOut(LensModel model, const Task& task, const Geometry& geometry, const Fitted& f, double most)
 {
-	return HeldOutError({ model, f.observations, geometry.w_px * task.pitch_mm, f.model_sigma }, f.x, most);
+	return HoldOut({ model, f.observations, geometry.w_px * task.pitch_mm, f.model_sigma, task.priors }, f.x, most);
+}
+
+void Keep(const HeldOut& held_out, Solution& solution)
+{
+	solution.held_out_px = held_out.rms;
+	solution.left_out = held_out.photos;
 }
 
 /// The bowl, or the two of an astigmatic lens where that foretells photographs better. `plane`: where to start.
@@ -94,13 +100,13 @@ Solution Curve(const Task& task, const Geometry& geometry, const Fitted& plane, 
 {
 	const double w_mm = geometry.w_px * task.pitch_mm;
 	Fitted one = plane;
-	Refine(LensModel::BOWL, w_mm, one);
+	Refine(LensModel::BOWL, task, w_mm, one);
 	Fitted two = one;
-	Refine(LensModel::BOWLS, w_mm, two);
-	const double one_error = HeldOut(LensModel::BOWL, task, geometry, one, most), two_error = HeldOut(LensModel::BOWLS, task, geometry, two, most);
-	const bool apart = two_error < WORTH_IT * one_error;
+	Refine(LensModel::BOWLS, task, w_mm, two);
+	const HeldOut of_one = LeaveOut(LensModel::BOWL, task, geometry, one, most), of_two = LeaveOut(LensModel::BOWLS, task, geometry, two, most);
+	const bool apart = of_two.rms < WORTH_IT * of_one.rms;
 	Solution solution = apart ? SolutionOf(LensModel::BOWLS, "curved", task, geometry, two) : SolutionOf(LensModel::BOWL, "curved", task, geometry, one);
-	solution.held_out_px = apart ? two_error : one_error;
+	Keep(apart ? of_two : of_one, solution);
 	return solution;
 }
 
@@ -149,11 +155,11 @@ std::vector<Solution> CompareExact(const Task& task, const Geometry& geometry)
 	{
 		const Fitted rigid = FitFromNothing(LensModel::RIGID, task, geometry);
 		Solution s = SolutionOf(LensModel::RIGID, "rigid", task, geometry, rigid);
-		s.held_out_px = HeldOut(LensModel::RIGID, task, geometry, rigid, most);
+		Keep(LeaveOut(LensModel::RIGID, task, geometry, rigid, most), s);
 		return s;
 	});
 	all.push_back(SolutionOf(LensModel::PLANE, "plane", task, geometry, plane));
-	all.back().held_out_px = HeldOut(LensModel::PLANE, task, geometry, plane, most);
+	Keep(LeaveOut(LensModel::PLANE, task, geometry, plane, most), all.back());
 	add("curved", [&] { return Curve(task, geometry, plane, most); });
 	return all;
 }

@@ -39,6 +39,19 @@ struct ReprojectionCost
 	}
 };
 
+/// What is known of w beforehand, px.
+struct ImageDistanceCost
+{
+	double value, sigma;
+
+	template<typename T>
+	bool operator()(const T* w_px, T* residual) const
+	{
+		residual[0] = (*w_px - T(value)) / T(sigma);
+		return true;
+	}
+};
+
 /// OpenCV's rotation and translation in our frames (camera.h).
 Pose FromOpenCv(const cv::Mat& rvec, const cv::Mat& tvec)
 {
@@ -92,6 +105,9 @@ void Initialise(const Task& task, Geometry& g)
 
 void Build(const Task& task, Geometry& g, double model_sigma, ceres::Problem& problem)
 {
+	for (const Prior& prior : task.priors)
+		if (prior.quantity == Quantity::IMAGE_DISTANCE)
+			problem.AddResidualBlock(new ceres::AutoDiffCostFunction<ImageDistanceCost, 1, 1>(new ImageDistanceCost{ prior.value / task.pitch_mm, prior.sigma / task.pitch_mm }), nullptr, &g.w_px);
 	for (size_t s = 0; s < task.states.size(); ++s)
 		for (size_t p = 0; p < task.states[s].photos.size(); ++p)
 			for (const Corner& c : task.states[s].photos[p].corners)

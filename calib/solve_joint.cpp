@@ -63,6 +63,7 @@ bool RefineJointly(const Task& task, Refinement kind, Geometry& geometry, Soluti
 			return false;
 		SetNormals(fit, x, g);
 	}
+	fit.error = ErrorOf(fit.Residuals(g, x));
 	Eigen::MatrixXd covariance;
 	if (!fit.Covariance(g, x, covariance))
 		return false;
@@ -70,8 +71,9 @@ bool RefineJointly(const Task& task, Refinement kind, Geometry& geometry, Soluti
 	Solution refined;
 	refined.model = solution.model;
 	refined.held_out_px = solution.held_out_px;
+	refined.left_out = solution.left_out;
 	const std::vector<Observation> observations = Observe(task, g);
-	FillSolution(task, g, { solution.lens, observations, g.w_px * task.pitch_mm, fit.error.blur }, x, covariance, refined);
+	FillSolution(task, g, { solution.lens, observations, g.w_px * task.pitch_mm, fit.error.blur, task.priors }, x, covariance, refined);
 	for (size_t s = 0; s < refined.states.size(); ++s)
 		refined.states[s].chosen_by_power = solution.states[s].chosen_by_power;
 	geometry = g;
@@ -97,7 +99,7 @@ GeometryAlone TiltFromGeometryAlone(const Task& task, const Geometry& geometry, 
 		return {};
 	Solution alone;
 	const std::vector<Observation> observations = Observe(task, g);
-	FillSolution(task, g, { solution.lens, observations, g.w_px * task.pitch_mm, fit.error.blur }, x, covariance, alone);
+	FillSolution(task, g, { solution.lens, observations, g.w_px * task.pitch_mm, fit.error.blur, task.priors }, x, covariance, alone);
 	return { alone.states, { g.pupil_magnification, g.pupil_magnification_sigma } };
 }
 

@@ -3,6 +3,7 @@
 #include "write_inc.h"
 
 #include "calibrate.h"
+#include "camera_block.h"
 #include "files.h"
 
 #include <fmt/format.h>
@@ -55,9 +56,9 @@ std::string Numbers(const Calibration& c, const Solution& solution, const Geomet
 	out += Declare(prefix, "Focal_Plane_Tilt", lens.focal_plane_tilt, "degrees");
 	out += Declare(prefix, "Tilt_Direction", lens.tilt_direction, "degrees, 0 = recedes towards picture up, 90 = right");
 	out += Declare(prefix, "Lens_Tilt", lens.lens_tilt, "degrees");
-	// The direction of the picture's centre is <SX, SY, W> in camera axes.
-	out += Declare(prefix, "Shift_X", { (0.5 * (c.task.width - 1) - cp[0]) * pitch, cs[0] * pitch }, "mm");
-	out += Declare(prefix, "Shift_Y", { -(0.5 * (c.task.height - 1) - cp[1]) * pitch, cs[1] * pitch }, "mm");
+	const Point shift = ShiftOfPicture(c.task.width, c.task.height, cp);
+	out += Declare(prefix, "Shift_X", { shift[0] * pitch, cs[0] * pitch }, "mm");
+	out += Declare(prefix, "Shift_Y", { shift[1] * pitch, cs[1] * pitch }, "mm");
 	out += Declare(prefix, "Principal_Point_X", { cp[0], cs[0] }, "px");
 	out += Declare(prefix, "Principal_Point_Y", { cp[1], cs[1] }, "px");
 	out += Declare(prefix, "Field_Curvature", solution.field_curvature, "1/mm, of the bowl that the plane of focus touches on the lens axis");
@@ -81,37 +82,24 @@ std::string Numbers(const Calibration& c, const Solution& solution, const Geomet
 
 std::string Macro(const Calibration& c, const std::string& p, bool distorted)
 {
-	const std::string curvature = c.solution.model == "curved" ? fmt::format("\t\t\tfield_curvature {}_Field_Curvature\n", p) : "";
-	const std::string distortion = distorted ? fmt::format(
-		"#if (TiltCal_Distortion)\n\t\t\tdistortion {0}_K1, {0}_K2, {0}_P1, {0}_P2, {0}_K3\n#end\n", p) : "";
+	CameraBlock block{ "focal_plane_tilt " + p + "_Focal_Plane_Tilt", p + "_Tilt_Direction", p + "_Focus_Distance", p + "_Image_Distance",
+		p + "_Shift_X", p + "_Shift_Y", p + "_Aperture_Diameter", "", "" };
+	if (c.solution.model == "curved")
+		block.effects += fmt::format("\t\tfield_curvature {}_Field_Curvature\n", p);
+	if (distorted)
+		block.effects += fmt::format("#if (TiltCal_Distortion)\n\t\tdistortion {0}_K1, {0}_K2, {0}_P1, {0}_P2, {0}_K3\n#end\n", p);
+	block.place = fmt::format("\tlocation Location\n\tdirection {}_Image_Distance*z\n\tright {:.10g}*x\n\tup {:.10g}*y\n\tsky Sky\n\tlook_at Look_At\n",
+		p, c.task.width * c.task.pitch_mm, c.task.height * c.task.pitch_mm);
 	return fmt::format(
 		"// Location is the lens centre. Look_At lies on the axis, that is, at the principal\n"
 		"// point, which the shift puts beside the picture's centre. Sky as for any camera.\n"
 		"#macro {0}(Location, Look_At, Sky)\n"
-		"\tcamera {{\n"
-		"\t\ttilt_lens {{\n"
-		"\t\t\tfocal_plane_tilt {0}_Focal_Plane_Tilt\n"
-		"\t\t\ttilt_direction {0}_Tilt_Direction\n"
-		"\t\t\tfocal_distance {0}_Focus_Distance\n"
-		"\t\t\timage_distance {0}_Image_Distance\n"
-		"\t\t\tshift <{0}_Shift_X, {0}_Shift_Y>\n"
-		"\t\t\taperture_diameter {0}_Aperture_Diameter\n"
 		"{1}"
-		"\t\t}}\n"
-		"\t\tlocation Location\n"
-		"\t\tdirection {0}_Image_Distance*z\n"
-		"\t\tright {2:.10g}*x\n"
-		"\t\tup {3:.10g}*y\n"
-		"\t\tsky Sky\n"
-		"\t\tlook_at Look_At\n"
-		"\t\tblur_samples TiltCal_Blur_Samples\n"
-		"\t\tvariance 0\n"
-		"\t}}\n"
 		"#end\n\n"
 		"// The camera of this state's photograph N (1, 2, ...), in the board's frame.\n"
 		"#macro {0}_Pose(N)\n"
 		"\t{0}({0}_Photo_Location[N - 1], {0}_Photo_Look_At[N - 1], {0}_Photo_Sky[N - 1])\n"
-		"#end\n", p, curvature + distortion, c.task.width * c.task.pitch_mm, c.task.height * c.task.pitch_mm);
+		"#end\n", p, CameraBlockText(block));
 }
 
 }
@@ -126,10 +114,9 @@ std::string CameraInc(const Calibration& c, size_t s)
 		"// Render at {} x {} pixels or any size of this aspect ratio.\n"
 		"// World of the photographs' poses: origin at the board's first inner corner, x along\n"
 		"// the columns, y up the rows, z into the board.\n"
-		"// Reprojection: {:.3f} px RMS {}.\n\n"
-		"#ifndef (TiltCal_Blur_Samples)\n\t#declare TiltCal_Blur_Samples = 128;\n#end\n",
+		"// Reprojection: {:.3f} px RMS {}.\n\n{}",
 		name, TILTCAL_VERSION, c.solution.model, c.task.width, c.task.height, RenderGeometry(c).rms,
-		distorted ? fmt::format("without distortion, {:.3f} px with it", MainGeometry(c).rms) : "without distortion, which this lens does not need");
+		distorted ? fmt::format("without distortion, {:.3f} px with it", MainGeometry(c).rms) : "without distortion, which this lens does not need", BlurSamplesDefault());
 	if (distorted)
 		out += "// 1: with the lens's distortion, which acts about the tilted lens axis. 0: the best\n"
 			"// camera without it, fitted as such.\n"

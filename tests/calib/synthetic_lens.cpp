@@ -130,8 +130,10 @@ tiltcal::Photo Shoot(const Lens& lens, const Placed& pose, const Noise& noise, s
 				const Eigen::Vector2d way = (pixel(camera(i + along, j + !along)) - p).normalized();
 				e.nx = -way.y();
 				e.ny = way.x();
-				e.x = pixel(P).x();
-				e.y = pixel(P).y();
+				const double off = noise.corner * normal(offsets);
+				e.x = pixel(P).x() + off * e.nx;
+				e.y = pixel(P).y() + off * e.ny;
+				e.offset_sigma = std::max(noise.corner, 0.002);
 				const double width = Width(lens, P, e.nx, e.ny);
 				e.blur = std::abs(std::hypot(width, lens.floor) + noise.blur * normal(random));
 				e.blur_sigma = std::max(noise.blur, 0.01);

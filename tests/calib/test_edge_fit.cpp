@@ -17,6 +17,7 @@ namespace
 using tiltcal::EdgeFit;
 using tiltcal::EdgeSample;
 using tiltcal::FitEdge;
+using tiltcal::LoneEdge;
 
 struct Rendered
 {
@@ -67,7 +68,7 @@ TEST(EdgeFit, FindsTheDisc)
 	for (const double radius : { 1.0, 3.0, 10.0 })
 		for (const double angle : { 0.0, 0.4, 1.2 })
 		{
-			const EdgeFit fit = FitEdge(Render({ radius, angle, 0.3, 0, 0, 0 }, 1500, 7), std::cos(angle), std::sin(angle), 2);
+			const EdgeFit fit = FitEdge(Render({ radius, angle, 0.3, 0, 0, 0 }, 1500, 7), LoneEdge(std::cos(angle), std::sin(angle)), 2);
 			ASSERT_TRUE(fit.valid);
 			EXPECT_NEAR(fit.radius, radius, 0.04 + 0.005 * radius) << angle;
 			EXPECT_NEAR(fit.offset, 0.3, 0.03);
@@ -80,7 +81,7 @@ TEST(EdgeFit, FindsTheDisc)
 TEST(EdgeFit, IsNotFooledByVignettingOrAnOblique)
 {
 	// Without the shading term 1 % per pixel would move the radius by more than 0.2 px.
-	const EdgeFit fit = FitEdge(Render({ 5, 0.2, -0.4, 0.02, 0.01, 0.005 }, 1500, 3), std::cos(0.2), std::sin(0.2), 3);
+	const EdgeFit fit = FitEdge(Render({ 5, 0.2, -0.4, 0.02, 0.01, 0.005 }, 1500, 3), LoneEdge(std::cos(0.2), std::sin(0.2)), 3);
 	ASSERT_TRUE(fit.valid);
 	EXPECT_NEAR(fit.radius, 5, 0.06);
 	EXPECT_NEAR(fit.offset, -0.4, 0.03);
@@ -90,7 +91,7 @@ TEST(EdgeFit, IsNotFooledByVignettingOrAnOblique)
 
 TEST(EdgeFit, SharpEdgeHasNoBlur)
 {
-	const EdgeFit fit = FitEdge(Render({ 0, 0.35, 0, 0, 0, 0 }, 400, 5), std::cos(0.35), std::sin(0.35), 2);
+	const EdgeFit fit = FitEdge(Render({ 0, 0.35, 0, 0, 0, 0 }, 400, 5), LoneEdge(std::cos(0.35), std::sin(0.35)), 2);
 	ASSERT_TRUE(fit.valid);
 	// The pixel hides radii below about 0.3 px.
 	EXPECT_LT(fit.radius, 0.3);
@@ -104,7 +105,7 @@ TEST(EdgeFit, SigmaIsTheScatter)
 	const int n = 40;
 	for (int k = 0; k < n; ++k)
 	{
-		const EdgeFit fit = FitEdge(Render({ 4, 0.3, 0, 0, 0, 0.02 }, 200, 100 + unsigned(k)), std::cos(0.3), std::sin(0.3), 3);
+		const EdgeFit fit = FitEdge(Render({ 4, 0.3, 0, 0, 0, 0.02 }, 200, 100 + unsigned(k)), LoneEdge(std::cos(0.3), std::sin(0.3)), 3);
 		ASSERT_TRUE(fit.valid);
 		sum += fit.radius;
 		squares += fit.radius * fit.radius;
@@ -117,11 +118,11 @@ TEST(EdgeFit, SigmaIsTheScatter)
 
 TEST(EdgeFit, RefusesWhatIsNoEdge)
 {
-	EXPECT_FALSE(FitEdge({}, 1, 0, 2).valid);
+	EXPECT_FALSE(FitEdge({}, LoneEdge(1, 0), 2).valid);
 	std::vector<EdgeSample> flat;
 	for (int k = 0; k < 400; ++k)
 		flat.push_back({ k % 20 - 9.5, k / 20 - 9.5, 0.5 });
-	EXPECT_FALSE(FitEdge(flat, 1, 0, 2).valid);
+	EXPECT_FALSE(FitEdge(flat, LoneEdge(1, 0), 2).valid);
 }
 
 }

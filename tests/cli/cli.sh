@@ -25,15 +25,46 @@ calibrate() { # calibrate CODE TEXT UNTILTED EXTRA...
 	refuses "$want" "$text" calibrate --board 12x9 --square 25 --pitch 0.02 --untilted "$untilted" --out result "$@"
 }
 
+# camera: camera.yml as OpenCV writes it, f 2400 px, and camera.json imported from it.
+camera() {
+	cat >camera.yml <<-'END'
+		%YAML:1.0
+		---
+		image_width: 1800
+		image_height: 1200
+		camera_matrix: !!opencv-matrix
+		   rows: 3
+		   cols: 3
+		   dt: d
+		   data: [ 2400., 0., 900., 0., 2400., 600., 0., 0., 1. ]
+		distortion_coefficients: !!opencv-matrix
+		   rows: 5
+		   cols: 1
+		   dt: d
+		   data: [ 0., 0., 0., 0., 0. ]
+	END
+	expect 0 import camera.yml --pitch 0.02 --out camera.json
+}
+# pose_points: points.csv, seen by that camera from 1000 before the origin along z: u = 900 + 2400 x / (z + 1000), v = 600 - ...
+pose_points() {
+	printf '%s\n' u_px,v_px,x,y,z >points.csv
+	for p in "-200 -100 0" "200 -120 100" "-150 150 200" "180 140 -100" "20 30 250" "-60 80 -150"; do
+		echo "$p" | awk '{ printf "%.9f,%.9f,%s,%s,%s\n", 900 + 2400 * $1 / ($3 + 1000), 600 - 2400 * $2 / ($3 + 1000), $1, $2, $3 }' >>points.csv
+	done
+}
+
 case $case in
 help) expect 0 --help; prints calibrate; prints profile; prints "Exit codes" ;;
 version) expect 0 --version; grep -Eq '^tiltcal [0-9]+\.[0-9]+\.[0-9]+$' out || fail "version line" ;;
 no_command) refuses 2 subcommand ;;
 unknown_option) calibrate 2 frobnicate "$target/untilted-1.jpg" --frobnicate ;;
 help_of_each)
-	for command in calibrate detect profile; do
+	for command in target detect calibrate pose profile export import; do
 		expect 0 $command --help; prints Example; prints "Exit codes"
-	done ;;
+	done
+	expect 0 --help
+	listed=$(sed -n '/^Subcommands:/,/^$/s/^  \([a-z]*\) .*/\1/p' out | tr '\n' ' ')
+	[ "$listed" = "target detect calibrate pose profile export import " ] || fail "subcommands: $listed" ;;
 missing_file) calibrate 3 nowhere.jpg "$target/nowhere.jpg" ;;
 empty_glob) calibrate 3 "no file matches" "$target/*.webp" ;;
 empty_file) : >zero.png; calibrate 3 "zero.png.*empty" zero.png ;;
@@ -59,8 +90,9 @@ unwritable_folder)
 	refuses 3 blocked calibrate --board 12x9 --square 25 --pitch 0.02 --untilted "$target/untilted-1.jpg" --out blocked/result ;;
 no_board) calibrate 1 "untilted.jpg: no board" "$photos/scene/untilted.jpg" ;;
 detect_csv)
-	expect 0 detect --board 12x9 "$target/untilted-1.jpg" --csv corners.csv
-	prints "88 corners, 157 edges"
+	expect 0 detect --board 12x9 "$target/untilted-1.jpg" --csv corners.csv --overlay seen
+	prints "88 corners, 157 edges.*of a square, median"
+	[ -s seen/1-untilted-1.png ] || fail "no overlay"
 	[ "$(head -n 1 corners.csv)" = "file,column,row,x_px,y_px,sigma_px" ] || fail "header of corners.csv"
 	[ "$(head -n 1 corners-edges.csv)" = "file,x_px,y_px,nx,ny,blur_px,sigma_px" ] || fail "header of corners-edges.csv"
 	[ "$(wc -l <corners.csv)" = 89 ] || fail "88 corners expected"
@@ -104,5 +136,74 @@ bad_edges_per_photo)
 	for n in -1 3 11 2.5 many; do calibrate 2 "--edges-per-photo.*$n" "$target/untilted-1.jpg" --edges-per-photo=$n; done ;;
 few_edges) # twelve edges of one photograph do not make a calibration
 	calibrate 1 "only 12 edges.*--edges-per-photo" "$target/untilted-1.jpg" --edges-per-photo 12 ;;
+target_files)
+	expect 0 target --board 12x9 --square 25 --out new/board.pdf --out new/board.svg --out new/board.inc
+	prints "a3 landscape (420 x 297 mm)"; prints "written to new/board.inc"
+	head -c 5 new/board.pdf | grep -q '%PDF-' || fail "board.pdf is no PDF"
+	grep -q 'width="420mm" height="297mm"' new/board.svg || fail "board.svg is not of A3"
+	grep -q '#declare TiltCal_Target = union' new/board.inc || fail "no object in board.inc"
+	left=$(find new -name '.*' -type f) ; [ -z "$left" ] || fail "temporary files left: $left" ;;
+target_does_not_fit) refuses 1 "a3 holds it" target --board 12x9 --square 25 --paper a4 --out board.pdf; [ ! -e board.pdf ] || fail "a file was written" ;;
+target_usage)
+	for board in 12 axb 2x2; do refuses 2 board target --board=$board --square 25 --out board.pdf; done
+	for square in 0 -1 nan; do refuses 2 square target --board 12x9 --square=$square --out board.pdf; done
+	refuses 2 "circles" target --board 12x9 --square 25 --kind rings --out board.pdf
+	refuses 2 "letter" target --board 12x9 --square 25 --paper foolscap --out board.pdf
+	refuses 2 "margin" target --board 12x9 --square 25 --margin=-1 --out board.pdf
+	refuses 2 "suffix" target --board 12x9 --square 25 --out board.png
+	refuses 2 "no circles" target --board 12x9 --square 25 --circle-diameter 9 --out board.pdf
+	refuses 2 "circle-diameter" target --board 7x6 --square 25 --kind circles --circle-diameter 25 --out board.pdf
+	refuses 2 "out" target --board 12x9 --square 25 ;;
+target_turned) # what looks the same upside down is said to
+	expect 0 target --board 12x8 --square 20 --out board.svg; says "turned by 180 degrees" ;;
+target_unwritable) : >blocked; refuses 3 blocked target --board 12x9 --square 25 --out blocked/board.pdf ;;
+pose_block)
+	camera; pose_points
+	expect 0 pose --calibration camera.json --points points.csv
+	prints 'camera {'; prints 'lens_tilt 0'; prints 'image_distance 48$'; says "reprojection 0.000 px RMS over 6 points"; says "worst"
+	expect 0 pose --calibration camera.json --points points.csv --unit-mm 1000 --out new/camera.inc
+	prints "reprojection"; grep -q 'image_distance 0.048$' new/camera.inc || fail "not in metres" ;;
+pose_refused)
+	camera; pose_points
+	head -4 points.csv >few.csv; refuses 1 "few.csv.*at least 4" pose --calibration camera.json --points few.csv
+	awk -F, 'NR > 1 { $5 = -$5 } 1' OFS=, points.csv >mirrored.csv; refuses 1 "mirrored.csv.*mirror" pose --calibration camera.json --points mirrored.csv
+	[ ! -e new ] || fail "something was written" ;;
+pose_usage)
+	camera; pose_points
+	refuses 2 "state plus5.*untilted" pose --calibration camera.json --state plus5 --points points.csv
+	for unit in 0 -1 nan; do refuses 2 unit-mm pose --calibration camera.json --points points.csv --unit-mm=$unit; done
+	refuses 2 points pose --calibration camera.json ;;
+pose_unreadable)
+	camera; pose_points
+	refuses 3 nowhere.json pose --calibration nowhere.json --points points.csv
+	refuses 3 nowhere.csv pose --calibration camera.json --points nowhere.csv
+	sed 's/u_px/u/' points.csv >header.csv; refuses 3 "header.csv:1:" pose --calibration camera.json --points header.csv
+	sed '3s/,.*//' points.csv >cut.csv; refuses 3 "cut.csv:3:" pose --calibration camera.json --points cut.csv
+	head -c 200 camera.json >cut.json; refuses 3 "cut.json.*JSON" pose --calibration cut.json --points points.csv
+	grep -v pixel_pitch_mm camera.json >old.json; refuses 3 "old.json: pixel_pitch_mm is missing" pose --calibration old.json --points points.csv
+	sed 's/"lens_tilt_deg": [^,]*/"lens_tilt_deg": "five"/' camera.json >text.json
+	refuses 3 "text.json: states\[0\].lens_tilt_deg is no number" pose --calibration text.json --points points.csv
+	: >blocked; refuses 3 blocked pose --calibration camera.json --points points.csv --out blocked/camera.inc ;;
+export_import)
+	camera
+	expect 0 export --calibration camera.json --opencv new/back.yml; prints "state untilted"; prints "lost: OpenCV's model has no blur"
+	grep -q '^# .*no blur' new/back.yml || fail "the file does not say what is lost"
+	expect 0 import new/back.yml --pitch 0.02 --out again.json; prints "unknown: aperture"
+	grep -v '"source"' camera.json >a; grep -v '"source"' again.json | cmp -s a - || fail "export and import changed the camera" ;;
+export_import_usage)
+	camera
+	refuses 2 "state plus5" export --calibration camera.json --state plus5 --opencv back.yml
+	refuses 2 "suffix" export --calibration camera.json --opencv back.txt
+	refuses 2 "pitch" import camera.yml --pitch 0 --out x.json
+	refuses 2 "suffix" import camera.txt --pitch 0.02 --out x.json ;;
+export_import_unreadable)
+	camera
+	refuses 3 nowhere.json export --calibration nowhere.json --opencv back.yml
+	refuses 3 nowhere.yml import nowhere.yml --pitch 0.02 --out x.json
+	echo "hello: [" >broken.yml; refuses 3 broken.yml import broken.yml --pitch 0.02 --out x.json
+	sed 's/image_width/width/' camera.yml >size.yml; refuses 3 "size.yml: image_width" import size.yml --pitch 0.02 --out x.json
+	sed 's/2400., 600/2500., 600/' camera.yml >skewed.yml; refuses 1 "skewed.yml: fx" import skewed.yml --pitch 0.02 --out x.json
+	: >blocked; refuses 3 blocked import camera.yml --pitch 0.02 --out blocked/x.json
+	refuses 3 blocked export --calibration camera.json --opencv blocked/back.yml ;;
 *) echo "unknown case $case"; exit 99 ;;
 esac

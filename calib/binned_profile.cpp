@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
-#include "edge_profile.h"
+#include "binned_profile.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 namespace tiltcal
 {
 
-std::vector<ProfileBin> EdgeProfile(const std::vector<EdgeSample>& samples, const EdgeFit& fit)
+std::vector<ProfileBin> BinnedProfile(const std::vector<EdgeSample>& samples, const EdgeFit& fit)
 {
 	const double width = std::clamp(fit.radius / 16, 0.1, 0.5);
 	std::map<long, ProfileBin> bins;

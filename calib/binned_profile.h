@@ -3,8 +3,8 @@
 // What is kept of an edge's pixels for the photometric refinement: its brightness across
 // itself, in bins finer than a pixel.
 
-#ifndef TILTCAL_EDGE_PROFILE_H
-#define TILTCAL_EDGE_PROFILE_H
+#ifndef TILTCAL_BINNED_PROFILE_H
+#define TILTCAL_BINNED_PROFILE_H
 
 #include "board.h"
 #include "edge_fit.h"
@@ -18,7 +18,7 @@ namespace tiltcal
 /// it, so that x is the distance from the fitted edge. Bins are a 16th of the blur's radius
 /// wide, within 0.1 to 0.5 px: what a bin's width adds to the blur is then below 0.1 % of it, and at
 /// small blur below 0.03 px. Sorted by x.
-std::vector<ProfileBin> EdgeProfile(const std::vector<EdgeSample>& samples, const EdgeFit& fit);
+std::vector<ProfileBin> BinnedProfile(const std::vector<EdgeSample>& samples, const EdgeFit& fit);
 
 }
 

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "camera_block.h"
+
+#include <fmt/format.h>
+
+namespace tiltcal
+{
+
+std::string CameraBlockText(const CameraBlock& b)
+{
+	return fmt::format(
+		"camera {{\n"
+		"\ttilt_lens {{\n"
+		"\t\t{}\n"
+		"\t\ttilt_direction {}\n"
+		"\t\tfocal_distance {}\n"
+		"\t\timage_distance {}\n"
+		"\t\tshift <{}, {}>\n"
+		"\t\taperture_diameter {}\n"
+		"{}"
+		"\t}}\n"
+		"{}"
+		"\tblur_samples TiltCal_Blur_Samples\n"
+		"\tvariance 0\n"
+		"}}\n", b.tilt, b.tilt_direction, b.focal_distance, b.image_distance, b.shift_x, b.shift_y, b.aperture_diameter, b.effects, b.place);
+}
+
+std::string BlurSamplesDefault() { return "#ifndef (TiltCal_Blur_Samples)\n\t#declare TiltCal_Blur_Samples = 128;\n#end\n"; }
+
+}

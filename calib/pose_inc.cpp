@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "camera_block.h"
+#include "pose.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace tiltcal
+{
+
+namespace
+{
+
+std::string Number(double x) { return fmt::format("{:.10g}", x); }
+std::string Vector(const Eigen::Vector3d& v) { return fmt::format("<{:.12g}, {:.12g}, {:.12g}>", v.x(), v.y(), v.z()); }
+
+std::string Sigmas(const Eigen::Vector3d& s, const char* unit)
+{
+	return std::isfinite(s.sum()) ? fmt::format("+- {:.2g}, {:.2g}, {:.2g} {}", s.x(), s.y(), s.z(), unit) : "sigma unknown: give at least 6 points";
+}
+
+CameraBlock Block(const StateCamera& c, const CameraPose& pose, double unit_mm)
+{
+	// POV-Ray has no infinity; a focus at 1e30 is one.
+	const double focus = std::isfinite(c.focus_distance_mm) ? c.focus_distance_mm / unit_mm : 1e30;
+	const double pixel = c.pitch_mm / unit_mm, w = c.image_distance_mm / unit_mm;
+	const Point shift = ShiftOfPicture(c.width, c.height, c.principal_point);
+	CameraBlock block{ "lens_tilt " + Number(c.lens_tilt_deg), Number(c.tilt_direction_deg), Number(focus), Number(w),
+		Number(shift[0] * pixel), Number(shift[1] * pixel), Number(c.aperture_diameter_mm / unit_mm), "", "" };
+	if (c.field_curvature_per_mm != 0)
+		block.effects += fmt::format("\t\tfield_curvature {:.10g}\n", c.field_curvature_per_mm * unit_mm);
+	if (c.HasDistortion())
+		block.effects += fmt::format("\t\tdistortion {:.10g}, {:.10g}, {:.10g}, {:.10g}, {:.10g}\n", c.distortion[0], c.distortion[1], c.distortion[2],
+			c.distortion[3], c.distortion[4]);
+	const Eigen::Matrix3d world_from_camera = pose.camera_from_world.transpose();
+	block.place = fmt::format("\tlocation {}\n\tdirection {}\n\tright {}\n\tup {}\n", Vector(pose.location), Vector(w * world_from_camera.col(2)),
+		Vector(c.width * pixel * world_from_camera.col(0)), Vector(c.height * pixel * world_from_camera.col(1)));
+	return block;
+}
+
+}
+
+std::string PoseInc(const StateCamera& c, const CameraPose& pose, double unit_mm)
+{
+	return fmt::format(
+		"// Written by tiltcal {} pose, state '{}'. World unit: {:g} mm. Render at {} x {} pixels or any size of this aspect ratio.\n"
+		"// {} points, reprojection {:.3f} px RMS. Location {}; rotation about right, up, forward {}.\n"
+		"// The sigmas hold the scatter of the points, not the calibration's own.\n"
+		"{}{}{}",
+		TILTCAL_VERSION, c.state, unit_mm, c.width, c.height, pose.residuals.size(), pose.rms, Sigmas(pose.location_sigma, "units"), Sigmas(pose.rotation_sigma_deg, "degrees"),
+		c.aperture_diameter_mm > 0 ? "" : "// The calibration knows no aperture and no focus: a pinhole camera.\n", BlurSamplesDefault(), CameraBlockText(Block(c, pose, unit_mm)));
+}
+
+std::string PoseText(const CameraPose& pose, const std::vector<PosePoint>& points)
+{
+	std::string out = fmt::format("location  {}  {}\nrotation about right, up, forward  {}\n", Vector(pose.location), Sigmas(pose.location_sigma, "scene units"),
+		Sigmas(pose.rotation_sigma_deg, "degrees"));
+	out += "  line      u_px      v_px      du_px     dv_px   (predicted - measured)\n";
+	for (size_t i = 0; i < points.size(); ++i)
+		out += fmt::format("{:6d} {:9.2f} {:9.2f}  {:9.3f} {:9.3f}{}\n", points[i].line, points[i].u, points[i].v, pose.residuals[i].x(), pose.residuals[i].y(),
+			i == pose.worst ? "   worst" : "");
+	return out + fmt::format("reprojection {:.3f} px RMS over {} points, worst {:.3f} px in line {}\n", pose.rms, points.size(), pose.residuals[pose.worst].norm(),
+		points[pose.worst].line);
+}
+
+}

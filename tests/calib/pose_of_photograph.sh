@@ -1,0 +1,16 @@
+#!/bin/sh
+# usage: pose_of_photograph.sh TILTCAL CALIBRATION PHOTO STATE NUMBER WORK
+# The corners of one calibration photograph, given to `tiltcal pose` as points of a scene: the camera must be found where
+# the calibration itself put it (the .inc's TiltCal_<STATE>_Photo_<NUMBER>_Location).
+set -eu
+tiltcal=$1 calibration=$2 photo=$3 state=$4 number=$5 work=$6
+rm -rf "$work" && mkdir -p "$work" && cd "$work"
+
+"$tiltcal" detect --board 12x9 "$photo" --csv corners.csv
+awk -F, 'NR == 1 { print "u_px,v_px,x,y,z" } NR > 1 { printf "%s,%s,%d,%d,0\n", $4, $5, 25 * $2, -25 * $3 }' corners.csv >points.csv
+"$tiltcal" pose --calibration "$calibration/calibration.json" --state "$state" --points points.csv --out camera.inc | tail -2
+location() { sed -n "s/^[^<]*$1[ =]*<\(.*\)>;*\$/\1/p" "$2" | head -1; }
+found=$(location '	location' camera.inc)
+expected=$(location "_Photo_${number}_Location" "$calibration/camera-$state.inc")
+# 1.5 mm of some 800: the calibration shares its poses between the states, whose pupils differ by parts of a millimetre.
+echo "$found, $expected" | awk -F, '{ d = sqrt(($1 - $4) ^ 2 + ($2 - $5) ^ 2 + ($3 - $6) ^ 2); print d " mm apart"; exit !(NF == 6 && d < 1.5) }'

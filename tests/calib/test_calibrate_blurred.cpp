@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// From pictures so blurred that edges run into each other to the tilt of the lens.
+
+#include "calibrate.h"
+#include "detect.h"
+#include "measure.h"
+#include "thin_lens_picture.h"
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace
+{
+
+using namespace tiltcal;
+using namespace synthetic;
+
+const double PITCH = 0.06, W = 800 * PITCH, F = 45;   // mm
+
+/// The plane of focus by Gauss's equation along the lens's axis, for three points of the sensor.
+void FocusOn(Scene& scene)
+{
+	Eigen::Vector3d seen[3];
+	int k = 0;
+	for (const auto& [x, y] : { std::pair{ 0.0, 0.0 }, std::pair{ 10.0, 0.0 }, std::pair{ 0.0, 10.0 } })
+	{
+		const Eigen::Vector3d X(x, y, -W);
+		const double image = -X.dot(scene.lens_normal);
+		seen[k++] = -X * (1 / (1 / F - 1 / image) / image);
+	}
+	scene.focus_point = seen[0];
+	scene.focus_normal = (seen[1] - seen[0]).cross(seen[2] - seen[0]).normalized();
+}
+
+State Photograph(const std::string& name, double tilt, const Board& board)
+{
+	State state;
+	state.name = name;
+	state.tilted = tilt != 0;
+	// Incline and its direction; before and behind the plane of focus at 720 mm.
+	const struct { double incline, direction, distance; } poses[] = { { 30, 0, 560 }, { 32, 95, 570 }, { 28, 200, 560 }, { 34, 290, 640 } };
+	for (const auto& pose : poses)
+	{
+		Scene scene;
+		scene.aperture = 32;
+		// y is down here: the front swings towards picture-down for a positive tilt at direction 0, up.
+		scene.lens_normal = Eigen::Vector3d(0, std::sin(tilt * M_PI / 180), std::cos(tilt * M_PI / 180));
+		FocusOn(scene);
+		Aim(scene, 125, 87.5, pose.distance, pose.incline, pose.direction, 0);
+		scene.noise = 0.006;
+		scene.seed = unsigned(state.photos.size()) + 1;
+		scene.lens_points = 200;
+		const cv::Mat picture = TakePicture(scene, Checkerboard(12, 9, board.square_mm));
+		Photo photo;
+		photo.file = name;
+		photo.width = scene.width;
+		photo.height = scene.height;
+		photo.corners = DetectCorners(picture, board, {}, photo.file);
+		MeasureEdges(picture, board, photo);
+		std::printf("%s: %zu edges, %d left out, %s\n", name.c_str(), photo.edges.size(), photo.edges_dropped, RatioText(photo).c_str());
+		state.photos.push_back(photo);
+	}
+	return state;
+}
+
+TEST(CalibrateBlurred, TiltOfALensFromStronglyBlurredPictures)
+{
+	Task task;
+	task.board = ParseBoard("12x9", 25);
+	task.pitch_mm = PITCH;
+	task.width = 640;
+	task.height = 480;
+	task.states = { Photograph("untilted", 0, task.board), Photograph("plus5", 5, task.board) };
+	double most = 0;
+	for (const State& state : task.states)
+		for (const Photo& photo : state.photos)
+			most = std::max(most, RatiosOf(photo).most);
+	EXPECT_GT(most, 0.3) << "the pictures are not blurred enough to test anything";
+	const Calibration c = Calibrate(task, "plane", Poses::AUTO);
+	const StateLens& lens = c.solution.states[1];
+	const double phi = lens.tilt_direction.value * M_PI / 180, tilt = lens.lens_tilt.value;
+	std::printf("tilt %.3f +- %.3f towards %.2f, w %.3f, d %.3f\n", tilt, lens.lens_tilt.sigma, lens.tilt_direction.value, c.solution.w_mm.value, c.solution.aperture_diameter.value);
+	EXPECT_LT(std::hypot(tilt * std::sin(phi), tilt * std::cos(phi) - 5), 0.1);   // eight pictures of 0.3 megapixels
+	EXPECT_NEAR(c.solution.aperture_diameter.value, 32, 0.3);
+	EXPECT_NEAR(c.solution.w_mm.value, W, 0.15);
+}
+
+}

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// Cameras to OpenCV and back. The oracle is cv::projectPoints, with its own tilted sensor.
+
+#include "error.h"
+#include "opencv_yaml.h"
+
+#include <Eigen/LU>
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <opencv2/calib3d.hpp>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+namespace
+{
+
+using namespace tiltcal;
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+StateCamera MakeCamera(double tilt, double direction)
+{
+	StateCamera c;
+	c.state = "state";
+	c.model = "curved";
+	c.width = 1800;
+	c.height = 1200;
+	c.pitch_mm = 0.02;
+	c.image_distance_mm = 48.32;
+	c.principal_point = { 911.7, 588.3 };
+	c.distortion = { -0.09, 0.12, 0.0013, -0.0021, -0.05 };
+	c.lens_tilt_deg = tilt;
+	c.tilt_direction_deg = direction;
+	c.focus_distance_mm = 650;
+	c.aperture_diameter_mm = 16;
+	return c;
+}
+
+class Tilts : public testing::TestWithParam<std::pair<double, double>> {};
+
+TEST_P(Tilts, ProjectAsOpenCvDoes)
+{
+	const StateCamera c = MakeCamera(GetParam().first, GetParam().second);
+	const OpenCvCamera o = ToOpenCv(c);
+	const cv::Matx33d K(o.fx, 0, o.centre[0], 0, o.fy, o.centre[1], 0, 0, 1);
+	const std::vector<double> coefficients{ o.distortion[0], o.distortion[1], o.distortion[2], o.distortion[3], o.distortion[4], 0, 0, 0, 0, 0, 0, 0, o.tau_x, o.tau_y };
+	const Eigen::Matrix3d opencv_from_camera = OpenCvFromCamera(c.LensNormal());
+	EXPECT_NEAR(opencv_from_camera.determinant(), -1, 1e-14);   // from left- to right-handed
+	for (double x = -300; x <= 300; x += 50)
+		for (double y = -200; y <= 200; y += 50)
+		{
+			const Vec3<double> P{ x, y, 800 + 0.3 * x - 0.5 * y };
+			double ours[2];
+			Project(c.ImageDistancePx(), c.distortion.data(), c.principal_point.data(), c.LensNormal(), P, ours);
+			const Eigen::Vector3d p = opencv_from_camera * Eigen::Vector3d(P.x, P.y, P.z);
+			std::vector<cv::Point2d> theirs;
+			cv::projectPoints(std::vector<cv::Point3d>{ { p.x(), p.y(), p.z() } }, cv::Vec3d(), cv::Vec3d(), K, coefficients, theirs);
+			// Rounding: 1e-13 of some thousand pixels, times a dozen operations.
+			EXPECT_NEAR(ours[0], theirs[0].x, 1e-9);
+			EXPECT_NEAR(ours[1], theirs[0].y, 1e-9);
+		}
+}
+
+TEST_P(Tilts, ComeBackFromTheFile)
+{
+	const StateCamera c = MakeCamera(GetParam().first, GetParam().second);
+	const std::string file = (fs::path(testing::TempDir()) / fmt::format("tiltcal-opencv-{}.yml", ::getpid())).string();
+	WriteOpenCv(c, file);
+	double lost = -1;
+	const StateCamera back = ReadOpenCv(file, c.pitch_mm, "state", lost);
+	fs::remove(file);
+	// The file holds 17 digits; 1e-12 relative leaves room for the turns there and back.
+	const auto same = [](double a, double b) { return std::abs(a - b) <= 1e-12 * std::max(std::abs(a), std::abs(b)); };
+	EXPECT_TRUE(same(back.image_distance_mm, c.image_distance_mm)) << back.image_distance_mm;
+	EXPECT_TRUE(same(back.principal_point[0], c.principal_point[0])) << back.principal_point[0];
+	EXPECT_TRUE(same(back.principal_point[1], c.principal_point[1])) << back.principal_point[1];
+	for (size_t k = 0; k < 5; ++k)
+		EXPECT_TRUE(same(back.distortion[k], c.distortion[k])) << k << ": " << back.distortion[k];
+	EXPECT_TRUE(same(back.lens_tilt_deg, c.lens_tilt_deg)) << back.lens_tilt_deg;
+	// A direction of 0 comes back as rounding; the tilt is 5 degrees.
+	EXPECT_NEAR(back.tilt_direction_deg, c.tilt_direction_deg, 1e-11);
+	EXPECT_EQ(back.width, 1800);
+	EXPECT_EQ(back.height, 1200);
+	EXPECT_LT(lost, 1e-9);
+	EXPECT_TRUE(std::isinf(back.focus_distance_mm));
+	EXPECT_EQ(back.aperture_diameter_mm, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Directions, Tilts, testing::Values(std::pair{ 0.0, 0.0 }, std::pair{ 5.0, 0.0 }, std::pair{ -5.0, 0.0 }, std::pair{ 5.0, 90.0 },
+	std::pair{ 8.0, 40.0 }, std::pair{ -8.0, 65.0 }, std::pair{ 12.0, -30.0 }), [](const auto& tested) { return "case" + std::to_string(tested.index); });
+
+class Import : public testing::Test
+{
+protected:
+	void SetUp() override { file = (fs::path(testing::TempDir()) / fmt::format("tiltcal-import-{}.yml", ::getpid())).string(); }
+	void TearDown() override { fs::remove(file); }
+
+	/// Writes as OpenCV's calibration sample does.
+	void Write(const cv::Matx33d& matrix, const std::vector<double>& coefficients, bool size = true)
+	{
+		cv::FileStorage out(file, cv::FileStorage::WRITE);
+		if (size)
+			out << "image_width" << 1800 << "image_height" << 1200;
+		out << "camera_matrix" << cv::Mat(matrix) << "distortion_coefficients" << cv::Mat(coefficients);
+	}
+	std::string Refusal()
+	{
+		try
+		{
+			double lost;
+			ReadOpenCv(file, 0.02, "", lost);
+		}
+		catch (const Error& e)
+		{
+			return e.what();
+		}
+		return "accepted";
+	}
+
+	std::string file;
+	const cv::Matx33d K{ 2400, 0, 900, 0, 2400, 600, 0, 0, 1 };
+};
+
+TEST_F(Import, WithoutTauIsUntilted)
+{
+	Write(K, { -0.1, 0.05, 0, 0, 0.01 });
+	double lost = -1;
+	const StateCamera c = ReadOpenCv(file, 0.02, "", lost);
+	EXPECT_EQ(c.state, "untilted");
+	EXPECT_FALSE(c.IsTilted());
+	EXPECT_EQ(c.LensNormal().z, 1);
+	EXPECT_DOUBLE_EQ(c.image_distance_mm, 48);
+	EXPECT_DOUBLE_EQ(c.principal_point[0], 900);
+	EXPECT_EQ(c.distortion[4], 0.01);
+}
+
+TEST_F(Import, SaysWhatUnequalFocalLengthsCost)
+{
+	Write({ 2400, 0, 900, 0, 2402.4, 600, 0, 0, 1 }, { 0, 0, 0, 0, 0 });
+	double lost = -1;
+	ReadOpenCv(file, 0.02, "", lost);
+	// A corner is hypot(900, 600) px away, and each axis half of 0.1 % off.
+	EXPECT_NEAR(lost, 0.0005 * std::hypot(900, 600), 0.001);
+	Write({ 2400, 0, 900, 0, 2420, 600, 0, 0, 1 }, { 0, 0, 0, 0, 0 });
+	EXPECT_THAT(Refusal(), HasSubstr("CALIB_FIX_ASPECT_RATIO"));
+}
+
+TEST_F(Import, RefusesWhatTiltLensHasNot)
+{
+	Write(K, { 0, 0, 0, 0, 0, 0.1, 0, 0 });
+	EXPECT_THAT(Refusal(), HasSubstr("k4"));
+	Write({ 2400, 1, 900, 0, 2400, 600, 0, 0, 1 }, { 0, 0, 0, 0 });
+	EXPECT_THAT(Refusal(), HasSubstr("skew"));
+	Write(K, { 0, 0, 0 });
+	EXPECT_THAT(Refusal(), HasSubstr("4, 5, 8, 12 or 14"));
+	Write(K, { 0, 0, 0, 0 }, false);
+	EXPECT_THAT(Refusal(), HasSubstr("image_width"));
+	std::ofstream(file) << "%YAML:1.0\n---\nimage_width: 1800\nimage_height: 1200\n";
+	EXPECT_THAT(Refusal(), HasSubstr("camera_matrix"));
+	std::ofstream(file) << "%YAML:1.0\n---\n{[ broken";
+	EXPECT_THAT(Refusal(), HasSubstr(file));
+}
+
+TEST(StateCamera, ComesBackFromJson)
+{
+	const StateCamera c = MakeCamera(-8, 65);
+	const std::string file = (fs::path(testing::TempDir()) / fmt::format("tiltcal-state-{}.json", ::getpid())).string();
+	std::ofstream(file) << StateCameraJson(c, "test");
+	const StateCamera back = ReadStateCamera(file, "state");
+	fs::remove(file);
+	EXPECT_EQ(back.image_distance_mm, c.image_distance_mm);
+	EXPECT_EQ(back.distortion, c.distortion);
+	EXPECT_EQ(back.principal_point, c.principal_point);
+	EXPECT_EQ(back.lens_tilt_deg, c.lens_tilt_deg);
+	EXPECT_EQ(back.tilt_direction_deg, c.tilt_direction_deg);
+	EXPECT_EQ(back.focus_distance_mm, c.focus_distance_mm);
+	EXPECT_EQ(back.aperture_diameter_mm, c.aperture_diameter_mm);
+}
+
+}
