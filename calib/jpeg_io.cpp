@@ -98,7 +98,7 @@ void ReadPixels(Reader& r)
 void Run(Reader& reader, void (*step)(Reader&))
 {
 	if (!Succeeds(reader, step))
-		throw FileError(fmt::format("{}: damaged JPEG, or of a kind that is not read: {}; copy or export it again", reader.picture.name, reader.message));
+		throw FileError(fmt::format("{}: truncated or damaged JPEG, or of a kind that is not read: {}; copy or export it again", reader.picture.name, reader.message));
 }
 
 }

@@ -3,6 +3,7 @@
 #include "picture_file.h"
 
 #include "error.h"
+#include "files.h"
 
 #include <fmt/format.h>
 
@@ -26,15 +27,9 @@ const std::uintmax_t MAX_BYTES = 16 * static_cast<std::uintmax_t>(MAX_PIXELS);
 std::uintmax_t CheckedLength(const std::string& file)
 {
 	std::error_code code;
-	const fs::file_status status = fs::status(file, code);
-	if (status.type() == fs::file_type::not_found)
-		throw FileError(fmt::format("{}: no such file", file));
-	if (fs::is_directory(status))
+	if (fs::is_directory(file, code))
 		throw FileError(fmt::format("{}: is a folder, not a picture; give the files, such as '{}/*.png'", file, file));
-	if (code)
-		throw FileError(fmt::format("{}: cannot be read ({})", file, code.message()));
-	if (!fs::is_regular_file(status))
-		throw FileError(fmt::format("{}: is a pipe or a device, not a picture; save the picture to a file", file));
+	NeedRegularFile(file, "a picture");
 	const std::uintmax_t length = fs::file_size(file, code);
 	if (code)
 		throw FileError(fmt::format("{}: cannot be read ({})", file, code.message()));

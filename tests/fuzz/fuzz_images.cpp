@@ -9,6 +9,7 @@
 #include "picture_seeds.h"
 
 #include "error.h"
+#include "exif.h"
 #include "image_io.h"
 #include "measure.h"
 
@@ -70,6 +71,8 @@ void Try(const std::string& file, bool detect, Counts& counts)
 	bool read = false;
 	try
 	{
+		// Before the pixels, as calibrate does without --pitch: a damaged file may have them.
+		tiltcal::Describe(tiltcal::ReadFacts(file));
 		const cv::Mat image = tiltcal::ReadLinear(file, tiltcal::Transfer());
 		read = true;
 		++counts.read;
