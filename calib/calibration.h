@@ -71,6 +71,13 @@ struct StateLens
 	int edges = 0;
 };
 
+/// Of two estimates of a fit, by their names in calibration.json.
+struct Correlation
+{
+	std::string first, second;
+	double value = 0;
+};
+
 /// What a fit without one photograph finds for that photograph's state, and how well it foretells it.
 struct LeftOut
 {
@@ -90,6 +97,7 @@ struct Solution
 	Estimate field_curvature;             ///< C, 1/mm; the mean of the two below
 	Estimate tangential_curvature, sagittal_curvature;
 	double held_out_px = 0;  ///< held_out.h; 0 when it was not asked for or cannot be had
+	std::vector<Correlation> correlations;   ///< of every pair of w, d, U and C, and of each with the tilts
 	std::vector<LeftOut> left_out;   ///< held_out.h: each photograph in turn
 	std::string failure;     ///< why there is no answer; empty when there is one
 };

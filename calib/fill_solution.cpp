@@ -13,10 +13,41 @@
 namespace tiltcal
 {
 
+namespace
+{
+
+/// Correlations of w, d, U, C and the components of every tilt, q_x and q_y.
+std::vector<Correlation> CorrelationsOf(const Task& task, LensModel model, const Eigen::MatrixXd& c)
+{
+	std::vector<std::pair<std::string, int>> numbers{ { "image_distance", 0 }, { "aperture_diameter", 1 }, { "focus_distance", 7 } };
+	if (IsCurved(model))
+		numbers.emplace_back("field_curvature", 3);
+	for (size_t s = 1; s < task.states.size(); ++s)
+	{
+		numbers.emplace_back(task.states[s].name + ".q_x", 5 + 3 * int(s));
+		numbers.emplace_back(task.states[s].name + ".q_y", 6 + 3 * int(s));
+	}
+	std::vector<Correlation> all;
+	for (size_t i = 0; i < numbers.size(); ++i)
+		for (size_t j = i + 1; j < numbers.size(); ++j)
+		{
+			const int a = numbers[i].second, b = numbers[j].second;
+			const double variance = c(a, a) * c(b, b);
+			// 1/U falls when U grows.
+			const double sign = (a == 7) != (b == 7) ? -1 : 1;
+			if (variance > 0)
+				all.push_back({ numbers[i].first, numbers[j].first, sign * c(a, b) / std::sqrt(variance) });
+		}
+	return all;
+}
+
+}
+
 void FillSolution(const Task& task, const Geometry& g, const BlurFit& fit, const Unknowns& x, const Eigen::MatrixXd& c, Solution& out)
 {
 	const double w = g.w_px * task.pitch_mm;
 	out.lens = fit.model;
+	out.correlations = CorrelationsOf(task, fit.model, c);
 	out.w_mm = { w, std::sqrt(c(0, 0)) };
 	out.aperture_diameter = { x.d, std::sqrt(c(1, 1)) };
 	const double floor = std::sqrt(x.floor_squared), floor_squared_sigma = std::sqrt(c(2, 2));

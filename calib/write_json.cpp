@@ -4,6 +4,7 @@
 
 #include "calibrate.h"
 #include "exif_check.h"
+#include "verdict.h"
 
 #include <nlohmann/json.hpp>
 
@@ -68,6 +69,8 @@ Json StateJson(const Calibration& c, const Solution& solution, const Geometry& g
 	json["principal_point_px"] = g.principal_point[s];
 	json["principal_point_sigma_px"] = g.principal_point_sigma[s];
 	json["principal_point_fixed"] = bool(g.principal_point_fixed[s]);
+	json["lens_centre_mm"] = { g.lens_centre[s].x, g.lens_centre[s].y, g.lens_centre[s].z };
+	json["lens_centre_sigma_mm"] = { g.lens_centre_sigma[s].x, g.lens_centre_sigma[s].y, g.lens_centre_sigma[s].z };
 	json["inverse_focus_per_mm"] = { lens.q.x, lens.q.y, lens.q.z };
 	json["inverse_focus_sigma_per_mm"] = { lens.q_sigma.x, lens.q_sigma.y, lens.q_sigma.z };
 	json["rms_blur_px"] = lens.rms_blur;
@@ -75,6 +78,26 @@ Json StateJson(const Calibration& c, const Solution& solution, const Geometry& g
 	json["photos"] = Json::array();
 	for (size_t p = 0; p < state.photos.size(); ++p)
 		json["photos"].push_back(PhotoJson(state.photos[p], g, s, p));
+	return json;
+}
+
+/// The tilts as blur and geometry tell them, each alone.
+Json TellersJson(const Calibration& c)
+{
+	Json json = Json::object();
+	const auto add = [&](const char* teller, const std::vector<StateLens>& states)
+	{
+		for (size_t s = 1; s < states.size(); ++s)
+		{
+			Json& state = json[teller][c.task.states[s].name];
+			Put(state, "lens_tilt", "_deg", states[s].lens_tilt);
+			Put(state, "tilt_direction", "_deg", states[s].tilt_direction);
+		}
+	};
+	add("blur_alone", c.blur_alone);
+	add("geometry_alone", c.geometry_alone.states);
+	if (!c.geometry_alone.states.empty())
+		Put(json["geometry_alone"], "pupil_magnification", "", c.geometry_alone.pupil_magnification);
 	return json;
 }
 
@@ -132,6 +155,20 @@ std::string CalibrationJson(const Calibration& c)
 		Json& entry = json["held_out_blur_px"][s.model];
 		entry = s.failure.empty() && s.held_out_px > 0 ? Json(s.held_out_px) : Json();
 	}
+	for (const Prior& prior : c.task.priors)
+		json["priors"][prior.Name()] = { { "value", prior.value }, { "sigma", prior.sigma } };
+	for (const Correlation& r : c.solution.correlations)
+		json["correlations"][r.first][r.second] = r.value;
+	json["tilt_told_by"] = TellersJson(c);
+	json["left_out"] = Json::array();
+	for (const LeftOut& l : c.solution.left_out)
+		json["left_out"].push_back({ { "state", c.task.states[l.state].name }, { "file", c.task.states[l.state].photos[l.photo].file },
+			{ "tilt_change_deg", l.tilt_change }, { "rms_blur_px", l.rms_blur } });
+	const Verdict verdict = Judge(c);
+	json["verdict"]["grade"] = Name(verdict.grade);
+	json["verdict"]["remarks"] = Json::array();
+	for (const Remark& remark : verdict.remarks)
+		json["verdict"]["remarks"].push_back({ { "grade", Name(remark.grade) }, { "text", remark.text } });
 	json["render"] = SolutionJson(c, c.render, RenderGeometry(c));
 	json["render"]["note"] = "the camera without distortion that the .inc files hold unless TiltCal_Distortion is set";
 	json["program"] = "tiltcal " TILTCAL_VERSION;

@@ -7,6 +7,7 @@
 #include "gnuplot.h"
 #include "image_io.h"
 #include "overlay.h"
+#include "verdict.h"
 #include "write_csv.h"
 #include "write_inc.h"
 #include "write_json.h"
@@ -106,6 +107,14 @@ std::string Tellers(const Calibration& c)
 	return out;
 }
 
+std::string VerdictText(const Verdict& verdict)
+{
+	std::string out = fmt::format("\nverdict: {}\n", Name(verdict.grade));
+	for (const Remark& r : verdict.remarks)
+		out += fmt::format("  {} {}\n", r.grade == Grade::GOOD ? "note:" : r.grade == Grade::FAIR ? "fair:" : "POOR:", r.text);
+	return out;
+}
+
 /// One row per edge: what the plot shows, and what a reader needs to look further.
 std::string BlurCsv(const Calibration& c, size_t s)
 {
@@ -165,6 +174,8 @@ std::string SummaryTable(const Calibration& c)
 		out += Tellers(c);
 	if (!c.compared.empty())
 		out += Comparison(c);
+	if (c.solution.model != "paper")
+		out += VerdictText(Judge(c));
 	return out;
 }
 

@@ -103,6 +103,7 @@ tiltcal::Photo Shoot(const Lens& lens, const Placed& pose, const Noise& noise, s
 {
 	const tiltcal::Board board = TheBoard();
 	std::normal_distribution<double> normal(0, 1);
+	std::mt19937 offsets(random());
 	tiltcal::Photo photo;
 	photo.width = 1800;
 	photo.height = 1200;
