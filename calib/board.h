@@ -5,6 +5,8 @@
 #ifndef TILTCAL_BOARD_H
 #define TILTCAL_BOARD_H
 
+#include "exif.h"
+
 #include <string>
 #include <vector>
 
@@ -71,6 +73,7 @@ struct Photo
 {
 	std::string file;
 	int width = 0, height = 0;
+	PhotographFacts facts;       ///< EXIF, nominal
 	std::vector<Corner> corners;
 	std::vector<Edge> edges;
 	int edges_dropped = 0;       ///< blurred beyond measuring, or not fitted

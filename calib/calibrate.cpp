@@ -3,6 +3,7 @@
 #include "calibrate.h"
 
 #include "error.h"
+#include "exif_check.h"
 #include "files.h"
 #include "measure.h"
 #include "solve_blur.h"
@@ -187,6 +188,7 @@ Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, doubl
 		}
 		task.states.push_back(std::move(state));
 	}
+	LogFacts(task);
 	return task;
 }
 

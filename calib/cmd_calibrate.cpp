@@ -4,6 +4,7 @@
 
 #include "calibrate.h"
 #include "error.h"
+#include "exif_check.h"
 #include "files.h"
 #include "write_report.h"
 
@@ -13,6 +14,7 @@
 #include <cctype>
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <set>
 
 namespace tiltcal
@@ -24,7 +26,8 @@ namespace
 struct Options
 {
 	std::string board, transfer = "srgb", model = "auto", poses = "auto", refine = "edges", out;
-	double square = 0, pitch = 0;
+	double square = 0;
+	std::optional<double> pitch;
 	std::vector<std::string> untilted, tilted, fix, prior;
 	DetectOptions detect;
 	EdgeChoice edges;
@@ -57,6 +60,14 @@ std::vector<StateFiles> States(const Options& o)
 		states.push_back({ name, ExpandGlobs({ option.substr(equals + 1) }, "--tilted " + name) });
 	}
 	return states;
+}
+
+std::vector<std::string> AllFiles(const std::vector<StateFiles>& states)
+{
+	std::vector<std::string> files;
+	for (const StateFiles& s : states)
+		files.insert(files.end(), s.files.begin(), s.files.end());
+	return files;
 }
 
 void CheckModel(const std::string& model)
@@ -95,7 +106,8 @@ void Run(const Options& o)
 	CheckModel(o.model);
 	const Poses poses = ParsePoses(o.poses);
 	const Refinement refinement = ParseRefinement(o.refine);
-	CheckPitch(o.pitch);
+	if (o.pitch)
+		CheckPitch(*o.pitch);
 	if (o.edges.most != 0 && o.edges.most < FEWEST_EDGES)
 		throw UsageError(fmt::format("--edges-per-photo {}: give 0 for all edges, or at least {}", o.edges.most, FEWEST_EDGES));
 	const std::vector<StateFiles> states = States(o);
@@ -104,11 +116,14 @@ void Run(const Options& o)
 		priors.push_back(ParseFix(text));
 	for (const std::string& text : o.prior)
 		priors.push_back(ParsePrior(text));
+	const double pitch = o.pitch ? *o.pitch : PitchFromExif(AllFiles(states));
 	PrepareFolder(o.out);
 
-	Task task = MeasureAll(states, board, o.pitch, transfer, o.detect, o.edges);
+	Task task = MeasureAll(states, board, pitch, transfer, o.detect, o.edges);
 	task.priors = priors;
 	const Calibration c = Calibrate(task, o.model, poses, refinement);
+	for (const std::string& words : CompareWithExif(c))
+		spdlog::warn("{}", words);
 	WriteEverything(c, transfer, o.out);
 	fmt::print("{}", SummaryTable(c));
 	fmt::print("written to {}\n", o.out);
@@ -123,7 +138,7 @@ void AddCalibrate(CLI::App& app)
 	CLI::App* c = app.add_subcommand("calibrate", "Photographs of a checkerboard in, camera blocks for tilt_lens out.");
 	c->add_option("--board", o->board, "Squares of the board, columns x rows, such as 12x9 (squares, not inner corners)")->required();
 	c->add_option("--square", o->square, "Side of a square, mm")->required();
-	c->add_option("--pitch", o->pitch, "Distance of pixel centres on the sensor, mm")->required();
+	c->add_option("--pitch", o->pitch, "Distance of pixel centres on the sensor, mm; needed unless EXIF says it (FocalPlaneXResolution)");
 	c->add_option("--untilted", o->untilted, "Photographs with the lens untilted: names or quoted patterns")->required();
 	c->add_option("--tilted", o->tilted, "NAME='GLOB': photographs of one tilted state; may be repeated");
 	c->add_option("--model", o->model, "auto: curved where photographs left out show field curvature, else plane; curved: plane and a common field curvature; "

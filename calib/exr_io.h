@@ -3,16 +3,17 @@
 #ifndef TILTCAL_EXR_IO_H
 #define TILTCAL_EXR_IO_H
 
-#include <opencv2/core.hpp>
+#include "picture_file.h"
 
-#include <string>
+#include <opencv2/core.hpp>
 
 namespace tiltcal
 {
 
-/// Reads an OpenEXR file: channel Y as CV_32FC1, or R, G, B as CV_32FC3 in OpenCV's
-/// order (blue first). The data window is the picture. Throws FileError.
-cv::Mat ReadExr(const std::string& file);
+/// Decodes OpenEXR, scan lines or tiles (full resolution), half or float: channels R, G, B as CV_32FC3 in OpenCV's
+/// order (blue first), else Y as CV_32FC1: of luminance/chroma pictures, the luminance. Other channels are
+/// not looked at. The data window is the picture; of several parts, the first. Throws FileError; deep pictures too.
+cv::Mat DecodeExr(const PictureFile& picture);
 
 }
 

@@ -92,6 +92,34 @@ std::vector<std::string> ExpandGlobs(const std::vector<std::string>& patterns, c
 	return files;
 }
 
+void NeedRegularFile(const std::string& file, const std::string& what)
+{
+	std::error_code code;
+	const fs::file_status status = fs::status(file, code);
+	if (status.type() == fs::file_type::not_found)
+		throw FileError(fmt::format("{}: no such file; give {}", file, what));
+	if (fs::is_directory(status))
+		throw FileError(fmt::format("{}: is a folder, not {}", file, what));
+	if (code)
+		throw FileError(fmt::format("{}: cannot be read ({})", file, code.message()));
+	if (!fs::is_regular_file(status))
+		throw FileError(fmt::format("{}: is a pipe or a device, not {}; save it to a file", file, what));
+}
+
+std::string ReadText(const std::string& file, const std::string& what, size_t most)
+{
+	NeedRegularFile(file, what);
+	std::error_code code;
+	if (fs::file_size(file, code) > most && !code)
+		throw FileError(fmt::format("{}: has more than {} MB and is not {}", file, most >> 20, what));
+	errno = 0;
+	std::ifstream in(file, std::ios::binary);
+	std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+	if (!in)
+		throw FileError(fmt::format("{}: cannot be read ({}); check its permissions", file, errno ? std::strerror(errno) : "it became shorter"));
+	return text;
+}
+
 void PrepareFolder(const std::string& folder)
 {
 	std::error_code code;

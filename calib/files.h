@@ -17,6 +17,13 @@ namespace tiltcal
 /// Throws FileError when a pattern matches nothing; `option` is named in the message.
 std::vector<std::string> ExpandGlobs(const std::vector<std::string>& patterns, const std::string& option);
 
+/// Throws FileError unless `file` is there and regular: reading a folder fails later and in
+/// other words, and opening a pipe waits for its writer. `what` it should be, such as "a picture".
+void NeedRegularFile(const std::string& file, const std::string& what);
+
+/// A whole text file of at most `most` bytes, for parsers. Throws FileError.
+std::string ReadText(const std::string& file, const std::string& what, size_t most = 64 << 20);
+
 /// Creates the folder (and its parents) and proves that a file can be written in it.
 /// Throws FileError. Called before the work starts, not after it.
 void PrepareFolder(const std::string& folder);

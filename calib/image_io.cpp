@@ -3,19 +3,21 @@
 #include "image_io.h"
 
 #include "error.h"
+#include "exif.h"
 #include "exr_io.h"
 #include "files.h"
+#include "jpeg_io.h"
+#include "picture_file.h"
+#include "png_io.h"
+#include "tiff_io.h"
 
 #include <fmt/format.h>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
+#include <new>
 #include <vector>
-
-namespace fs = std::filesystem;
 
 namespace tiltcal
 {
@@ -23,55 +25,16 @@ namespace tiltcal
 namespace
 {
 
-std::string ReadBytes(const std::string& file)
+cv::Mat Decode(const PictureFile& picture)
 {
-	std::error_code code;
-	if (!fs::exists(file, code))
-		throw FileError(fmt::format("{}: no such file", file));
-	if (fs::is_directory(file, code))
-		throw FileError(fmt::format("{}: is a folder, not a picture; give the files, such as '{}/*.png'", file, file));
-	std::ifstream in(file, std::ios::binary);
-	std::string bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-	if (!in)
-		throw FileError(fmt::format("{}: cannot be read; check its permissions", file));
-	if (bytes.empty())
-		throw FileError(fmt::format("{}: is empty (0 bytes)", file));
-	return bytes;
-}
-
-bool StartsWith(const std::string& bytes, const std::string& magic)
-{
-	return bytes.compare(0, magic.size(), magic) == 0;
-}
-
-/// OpenCV fills the missing part of a cut JPEG or PNG with grey and says nothing,
-/// so the end marker is looked for here.
-void RefuseTruncated(const std::string& file, const std::string& bytes)
-{
-	const bool png = StartsWith(bytes, "\x89PNG");
-	const bool jpeg = StartsWith(bytes, "\xff\xd8\xff");
-	const std::string end = png ? "IEND" : "\xff\xd9";
-	if ((png || jpeg) && bytes.rfind(end) == std::string::npos)
-		throw FileError(fmt::format("{}: is truncated (the end of the {} stream is missing); copy it again",
-			file, png ? "PNG" : "JPEG"));
-}
-
-cv::Mat Decode(const std::string& file, const std::string& bytes)
-{
-	RefuseTruncated(file, bytes);
-	cv::Mat image;
-	try
+	switch (picture.format)
 	{
-		const cv::Mat buffer(1, static_cast<int>(bytes.size()), CV_8UC1, const_cast<char*>(bytes.data()));
-		image = cv::imdecode(buffer, cv::IMREAD_UNCHANGED);
+	case PictureFormat::PNG: return DecodePng(picture);
+	case PictureFormat::JPEG: return DecodeJpeg(picture);
+	case PictureFormat::TIFF: return DecodeTiff(picture);
+	case PictureFormat::EXR: break;
 	}
-	catch (const cv::Exception& e)
-	{
-		throw FileError(fmt::format("{}: cannot be decoded: {}", file, e.err));
-	}
-	if (image.empty())
-		throw FileError(fmt::format("{}: not a picture, or damaged; PNG, JPEG, TIFF and OpenEXR are read", file));
-	return image;
+	return DecodeExr(picture);
 }
 
 /// Linear float of an integer picture through a table of its codes.
@@ -94,43 +57,60 @@ cv::Mat Linearise(const cv::Mat& coded, const Transfer& transfer)
 	return linear;
 }
 
-cv::Mat DropAlpha(const cv::Mat& image)
-{
-	cv::Mat result;
-	if (image.channels() == 4)
-		cv::cvtColor(image, result, cv::COLOR_BGRA2BGR);
-	else if (image.channels() == 2)
-		cv::extractChannel(image, result, 0);
-	else
-		result = image;
-	return result;
-}
+/// In linear light below 0 there is only what noise and resampling leave (a Lanczos filter
+/// undershoots an edge by a tenth); above any unit of light there is only damage.
+const double LEAST_LIGHT = -0.1, MOST_LIGHT = 1e12;
 
-}
-
-cv::Mat ReadLinear(const std::string& file, const Transfer& transfer)
+void CheckLight(const std::string& file, const cv::Mat& linear)
 {
-	const std::string bytes = ReadBytes(file);
-	cv::Mat image;
-	if (StartsWith(bytes, "\x76\x2f\x31\x01"))
-		image = ReadExr(file);
-	else
-	{
-		image = DropAlpha(Decode(file, bytes));
-		switch (image.depth())
-		{
-		case CV_8U: image = Linearise<uchar>(image, transfer); break;
-		case CV_16U: image = Linearise<ushort>(image, transfer); break;
-		case CV_32F: break;
-		case CV_64F: image.convertTo(image, CV_32F); break;
-		default: throw FileError(fmt::format("{}: its sample format is not read; convert it to 8 or 16 bit", file));
-		}
-	}
-	if (image.channels() != 1 && image.channels() != 3)
-		throw FileError(fmt::format("{}: has {} channels; 1 (grey) or 3 (colour) are read", file, image.channels()));
-	if (!cv::checkRange(image))
+	if (!cv::checkRange(linear))
 		throw FileError(fmt::format("{}: has pixels that are not numbers (NaN or infinite)", file));
+	double least = 0, most = 0;
+	cv::minMaxLoc(linear.reshape(1), &least, &most);
+	if (most > MOST_LIGHT)
+		throw FileError(fmt::format("{}: has pixels of {:g}; 1 is white", file, most));
+	if (least < 0 && least < LEAST_LIGHT * most)
+		throw FileError(fmt::format("{}: has pixels of {:g} where the brightest is {:g}: this is no light; export linear brightness, not logarithms or differences",
+			file, least, most));
+}
+
+cv::Mat ReadAndLinearise(const std::string& file, const Transfer& transfer, PhotographFacts* facts)
+{
+	const PictureFile picture = ReadPictureFile(file);
+	cv::Mat image = Decode(picture);
+	if (facts)
+		*facts = ReadFacts(picture, image.cols);
+	switch (image.depth())
+	{
+	case CV_8U: return Linearise<uchar>(image, transfer);
+	case CV_16U: return Linearise<ushort>(image, transfer);
+	default: break;
+	}
+	image.convertTo(image, CV_32F);
+	CheckLight(file, image);
 	return image;
+}
+
+}
+
+cv::Mat ReadLinear(const std::string& file, const Transfer& transfer, PhotographFacts* facts)
+{
+	try
+	{
+		return ReadAndLinearise(file, transfer, facts);
+	}
+	catch (const Error&)
+	{
+		throw;
+	}
+	catch (const std::bad_alloc&)
+	{
+		throw FileError(fmt::format("{}: too large for this machine's memory", file));
+	}
+	catch (const std::exception& e)
+	{
+		throw FileError(fmt::format("{}: cannot be read: {}", file, e.what()));
+	}
 }
 
 cv::Mat Luminance(const cv::Mat& linear)

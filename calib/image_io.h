@@ -14,12 +14,17 @@
 namespace tiltcal
 {
 
+struct PhotographFacts;
+
 /// Reads PNG, JPEG, TIFF (8, 16 bit integer or float) or OpenEXR into linear light:
 /// CV_32FC1 or CV_32FC3 (blue first), 1 = the integer formats' full scale.
 /// The transfer curve applies to the integer formats; floating point is linear.
-/// Alpha is dropped; EXIF orientation is ignored (the sensor's own orientation counts).
-/// Throws FileError: missing, empty, not a picture, truncated, NaN or infinite pixels.
-cv::Mat ReadLinear(const std::string& file, const Transfer& transfer);
+/// The format is told by the content. Alpha is dropped; orientation (EXIF, TIFF) is not
+/// applied, in any format: pixels are where the sensor had them.
+/// Throws FileError, and nothing else, for anything that is not a whole picture of these
+/// (picture_file.h has the limits): also CMYK, NaN or infinite pixels, negative light.
+/// `facts`, when given, receives what EXIF says.
+cv::Mat ReadLinear(const std::string& file, const Transfer& transfer, PhotographFacts* facts = nullptr);
 
 /// Luminance (Rec. 709 / sRGB primaries) as CV_32FC1.
 cv::Mat Luminance(const cv::Mat& linear);

@@ -274,8 +274,8 @@ void MeasureEdges(const cv::Mat& grey, const Board& board, Photo& photo, const E
 
 Photo MeasurePhoto(const std::string& file, const Board& board, const Transfer& transfer, const DetectOptions& options, const EdgeChoice& choice, cv::Mat* grey)
 {
-	const cv::Mat linear = Luminance(ReadLinear(file, transfer));
 	Photo photo;
+	const cv::Mat linear = Luminance(ReadLinear(file, transfer, &photo.facts));
 	photo.file = file;
 	photo.width = linear.cols;
 	photo.height = linear.rows;

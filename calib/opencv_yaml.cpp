@@ -209,8 +209,7 @@ void WriteOpenCv(const StateCamera& camera, const std::string& file)
 StateCamera ReadOpenCv(const std::string& file, double pitch_mm, const std::string& state, double& lost_px)
 {
 	CheckSuffix("IN", file);
-	if (std::error_code code; !std::filesystem::is_regular_file(file, code))
-		throw FileError(fmt::format("{}: no such file; give the YAML file of OpenCV's calibration", file));
+	ReadText(file, "the YAML file of OpenCV's calibration");   // that it can be, in our words
 	OpenCvCamera c;
 	StateCamera camera;
 	try
@@ -223,9 +222,17 @@ StateCamera ReadOpenCv(const std::string& file, double pitch_mm, const std::stri
 		ReadCameraMatrix(ReadMatrix(in, file, "camera_matrix", "3x3"), file, c);
 		ReadCoefficients(ReadMatrix(in, file, "distortion_coefficients", "5x1 or 14x1"), file, c);
 	}
+	catch (const Error&)
+	{
+		throw;
+	}
 	catch (const cv::Exception& e)
 	{
 		throw FileError(fmt::format("{}: OpenCV cannot read it ({})", file, e.err));
+	}
+	catch (const std::exception& e)
+	{
+		throw FileError(fmt::format("{}: OpenCV cannot read it ({})", file, e.what()));
 	}
 	camera.pitch_mm = pitch_mm;
 	camera.model = "opencv";

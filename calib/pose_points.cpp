@@ -3,13 +3,13 @@
 #include "pose_points.h"
 
 #include "error.h"
+#include "files.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
+#include <sstream>
 
 namespace tiltcal
 {
@@ -49,10 +49,7 @@ PosePoint ParsePoint(const std::string& text, const std::string& file, int line)
 
 std::vector<PosePoint> ReadPosePoints(const std::string& file)
 {
-	std::error_code code;
-	std::ifstream in(file);
-	if (!in || std::filesystem::is_directory(file, code))
-		throw FileError(fmt::format("{}: cannot be read; give a CSV file with the header {}", file, HEADER));
+	std::istringstream in(ReadText(file, fmt::format("a CSV file with the header {}", HEADER)));
 	std::vector<PosePoint> points;
 	std::string text;
 	bool header = false;

@@ -3,12 +3,12 @@
 #include "state_camera.h"
 
 #include "error.h"
+#include "files.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <fstream>
 #include <limits>
 
 namespace tiltcal
@@ -77,12 +77,10 @@ struct Node
 
 Json Parse(const std::string& file)
 {
-	std::ifstream in(file);
-	if (!in)
-		throw FileError(fmt::format("{}: cannot be read; give the calibration.json of tiltcal calibrate", file));
+	const std::string text = ReadText(file, "the calibration.json of tiltcal calibrate");
 	try
 	{
-		return Json::parse(in);
+		return Json::parse(text);
 	}
 	catch (const Json::exception& e)
 	{

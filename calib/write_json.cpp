@@ -3,6 +3,7 @@
 #include "write_json.h"
 
 #include "calibrate.h"
+#include "exif_check.h"
 #include "verdict.h"
 
 #include <nlohmann/json.hpp>
@@ -141,6 +142,7 @@ std::string CalibrationJson(const Calibration& c)
 	Json json = SolutionJson(c, c.solution, MainGeometry(c));
 	json["image_size_px"] = { c.task.width, c.task.height };
 	json["pixel_pitch_mm"] = c.task.pitch_mm;
+	json["exif"] = ExifJson(c.task);
 	json["board"] = { { "squares", { c.task.board.columns, c.task.board.rows } }, { "square_mm", c.task.board.square_mm } };
 	json["frames"] = "camera: x right, y up, z forward; board: origin at the first inner corner, x along the columns, y up the rows, z into it; "
 		"X_camera = rotation X_board + translation_mm; pixel centres at integers, (0, 0) top left";

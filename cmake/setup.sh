@@ -7,7 +7,7 @@ set -eu
 
 packages="
 	ca-certificates cmake ninja-build g++ make patch autoconf automake
-	zlib1g-dev libpng-dev libjpeg-dev libtiff-dev libopenexr-dev
+	zlib1g-dev libpng-dev libjpeg-dev libtiff-dev libopenexr-dev libexiv2-dev
 	libboost-thread-dev libboost-date-time-dev libboost-system-dev
 	libceres-dev libeigen3-dev libopencv-dev libcli11-dev nlohmann-json3-dev
 	libspdlog-dev libfmt-dev libgtest-dev libgmock-dev libbenchmark-dev
@@ -20,16 +20,16 @@ if ! command -v apt-get > /dev/null 2>&1; then
 	cat >&2 <<'END'
 setup.sh knows apt only. Please install by your system's own names:
   a C++17 compiler, cmake >= 3.25, ninja, make, patch, autoconf, automake
-  zlib, libpng, libjpeg, libtiff, OpenEXR 3, Boost (thread, date_time, system)
+  zlib, libpng, libjpeg, libtiff, exiv2, OpenEXR 3, Boost (thread, date_time, system)
   Ceres Solver 2.1, Eigen 3, OpenCV 4, CLI11, nlohmann-json, spdlog, fmt,
   pkg-config, cairo, a sans-serif font, poppler's pdftoppm (for a test)
   GoogleTest, Google Benchmark, gnuplot
   povray 3.7 (stock, the tests' oracle), ccache (optional)
   Fedora: gcc-c++ cmake ninja-build patch autoconf automake zlib-devel libpng-devel libjpeg-turbo-devel
-          libtiff-devel openexr-devel boost-devel ceres-solver-devel eigen3-devel opencv-devel cli11-devel
+          libtiff-devel exiv2-devel openexr-devel boost-devel ceres-solver-devel eigen3-devel opencv-devel cli11-devel
           json-devel spdlog-devel fmt-devel gtest-devel gmock-devel google-benchmark-devel gnuplot povray ccache
           pkgconf cairo-devel dejavu-sans-fonts poppler-utils
-  Arch:   base-devel cmake ninja zlib libpng libjpeg-turbo libtiff openexr boost ceres-solver eigen opencv
+  Arch:   base-devel cmake ninja zlib libpng libjpeg-turbo libtiff exiv2 openexr boost ceres-solver eigen opencv
           cli11 nlohmann-json spdlog fmt gtest benchmark gnuplot povray ccache pkgconf cairo ttf-dejavu poppler
   and the POV-Ray 3.7.0.10 source archive: cmake --preset release -DPOVRAY_SOURCE=/path/to/archive
 END

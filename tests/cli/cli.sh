@@ -71,6 +71,16 @@ empty_file) : >zero.png; calibrate 3 "zero.png.*empty" zero.png ;;
 not_an_image) echo hello >text.png; calibrate 3 "text.png.*not a picture" text.png ;;
 truncated) head -c 100000 "$target/untilted-1.jpg" >cut.jpg; calibrate 3 "cut.jpg.*truncated" cut.jpg ;;
 folder_as_photo) mkdir photo.jpg; calibrate 3 "photo.jpg.*folder" photo.jpg ;;
+pipe_as_photo) mkfifo pipe.jpg; calibrate 3 "pipe.jpg.*pipe" pipe.jpg ;;
+huge_picture) # a PNG whose header says 30,000 x 30,000 and that is 74 bytes long
+	printf '\211\120\116\107\015\012\032\012\000\000\000\015\111\110\104\122\000\000\165\060\000\000\165\060\010\000\000\000\000\103\114\247\146\000\000\000\021\111\104\101\124\170\234\143\140\030\005\243\140\024\014\044\000\000\003\204\000\001\340\126\022\050\000\000\000\000\111\105\116\104\256\102\140\202' >huge.png; calibrate 3 "huge.png.*30000 x 30000" huge.png
+	refuses 3 "huge.png" detect --board 12x9 huge.png --csv corners.csv; [ ! -e corners.csv ] || fail "corners.csv of nothing"
+	refuses 3 "huge.png" profile "$photos/scene/plus5.jpg" huge.png --out result ;;
+damaged_jpeg) # a hole in the middle: libjpeg would fill it and go on
+	{ head -c 100000 "$target/untilted-1.jpg"; tail -c +104000 "$target/untilted-1.jpg"; } >hole.jpg
+	calibrate 3 "hole.jpg.*damaged JPEG" hole.jpg ;;
+no_pitch) # the photographs have no EXIF
+	refuses 2 "pitch is required.*untilted-1.jpg" calibrate --board 12x9 --square 25 --untilted "$target/untilted-1.jpg" --out result ;;
 wrong_board_size)
 	refuses 1 "squares" calibrate --board 10x7 --square 25 --pitch 0.02 --untilted "$target/untilted-1.jpg" --out result ;;
 bad_board)
@@ -102,9 +112,9 @@ profile_same)
 	expect 0 profile "$photos/scene/plus5.jpg" "$photos/scene/plus5.jpg" --line 0,660,1799,660 --out result
 	prints "line 1 (0,660,1799,660): mean absolute error 0.000" ; prints "match none" ;;
 profile_sizes_differ)
-	# A 1 x 1 PGM is a picture that OpenCV reads.
-	printf 'P5\n1 1\n255\nx' >one.pgm
-	refuses 1 "same size" profile "$photos/scene/plus5.jpg" one.pgm --line 0,0,0,0 --out result ;;
+	# A PNG of 1 x 1 pixels.
+	printf '\211\120\116\107\015\012\032\012\000\000\000\015\111\110\104\122\000\000\000\001\000\000\000\001\010\000\000\000\000\072\176\233\125\000\000\000\012\111\104\101\124\170\234\143\250\000\000\000\172\000\171\263\141\265\173\000\000\000\000\111\105\116\104\256\102\140\202' >one.png
+	refuses 1 "same size" profile "$photos/scene/plus5.jpg" one.png --line 0,0,0,0 --out result ;;
 profile_line_outside)
 	refuses 2 "leaves the picture" profile "$photos/scene/plus5.jpg" "$photos/scene/plus5.jpg" --line 0,0,1800,0 --out result
 	refuses 2 "x0,y0,x1,y1" profile "$photos/scene/plus5.jpg" "$photos/scene/plus5.jpg" --line 0,0,5 --out result ;;

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// EXIF of a whole calibration: whether the photographs agree, and whether the answer does.
+
+#ifndef TILTCAL_EXIF_CHECK_H
+#define TILTCAL_EXIF_CHECK_H
+
+#include "calibration.h"
+#include "exif.h"
+
+#include <nlohmann/json.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tiltcal
+{
+
+/// What all photographs that say anything of it say alike; the rest is left out.
+/// The pitch counts only when every photograph has it. Orientation 1 unless all agree.
+PhotographFacts CommonFacts(const std::vector<PhotographFacts>& all);
+PhotographFacts CommonFacts(const Task& task);
+
+/// Pitch from EXIF, mm, logged; 0.2 % is the most by which photographs may differ. Throws UsageError
+/// that asks for --pitch when they do not say it; FileError.
+double PitchFromExif(const std::vector<std::string>& files);
+
+/// Logs the facts; warns when photographs of the task disagree, and of orientations that are not applied.
+void LogFacts(const Task& task);
+
+/// A sentence for each of f and f-number that lies far from EXIF's, with which to believe and why; usually none.
+std::vector<std::string> CompareWithExif(const Calibration& calibration);
+
+/// For calibration.json: the common facts; null when there are none.
+nlohmann::ordered_json ExifJson(const Task& task);
+
+}
+
+#endif

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// Every kind of picture that is read, what is refused, and EXIF.
+
+#include "error.h"
+#include "exif_check.h"
+#include "image_io.h"
+#include "measure.h"
+#include "picture_file.h"
+#include "picture_seeds.h"
+
+#include <gmock/gmock.h>
+#include <opencv2/imgcodecs.hpp>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace
+{
+
+using namespace tiltcal;
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class PictureFormats : public testing::Test
+{
+protected:
+	void SetUp() override
+	{
+		folder = fs::path(testing::TempDir()) / ("tiltcal-formats-" + std::to_string(::getpid()));
+		fs::create_directories(folder);
+		seeds = PictureSeeds(folder.string());
+	}
+	void TearDown() override { fs::remove_all(folder); }
+	std::string At(const std::string& name) const { return (folder / name).string(); }
+	std::string Bytes(const std::string& name) const
+	{
+		for (const PictureSeed& seed : seeds)
+			if (seed.name == name)
+				return seed.bytes;
+		ADD_FAILURE() << name;
+		return "";
+	}
+
+	/// What a FileError says of a file of these bytes; empty when it is read.
+	std::string Refusal(const std::string& name, const std::string& bytes) const
+	{
+		std::ofstream(At(name), std::ios::binary) << bytes;
+		return Refusal(name);
+	}
+	std::string Refusal(const std::string& name) const
+	{
+		try
+		{
+			ReadLinear(At(name), Transfer());
+			return "";
+		}
+		catch (const Error& e)
+		{
+			EXPECT_EQ(e.Code(), EXIT_FILE);
+			EXPECT_THAT(e.what(), HasSubstr(At(name)));
+			EXPECT_THAT(e.what(), testing::Not(HasSubstr("\n")));
+			return e.what();
+		}
+	}
+
+	fs::path folder;
+	std::vector<PictureSeed> seeds;
+};
+
+/// `bytes` with the big-endian 32-bit number at `at` replaced.
+std::string With32(std::string bytes, size_t at, uint32_t value)
+{
+	for (size_t i = 0; i < 4; ++i)
+		bytes[at + i] = static_cast<char>(value >> (24 - 8 * i));
+	return bytes;
+}
+
+TEST_F(PictureFormats, EveryKindGivesTheSamePictureUnturned)
+{
+	const cv::Mat truth = Checkerboard();
+	for (const PictureSeed& seed : seeds)
+	{
+		const cv::Mat grey = Luminance(ReadLinear(At(seed.name), ParseTransfer("srgb")));
+		ASSERT_EQ(grey.size(), truth.size()) << seed.name;
+		EXPECT_LE(cv::norm(grey, truth, cv::NORM_INF), seed.tolerance) << seed.name;
+	}
+}
+
+TEST_F(PictureFormats, ColoursKeepTheirOrder)
+{
+	const cv::Mat blue_first(16, 16, CV_8UC3, cv::Scalar(10, 120, 250));
+	for (const char* const name : { "c.png", "c.tif", "c.jpg" })
+	{
+		cv::imwrite(At(name), blue_first);
+		const cv::Vec3f c = ReadLinear(At(name), ParseTransfer("linear")).at<cv::Vec3f>(8, 8);
+		// JPEG's colours are rounded twice.
+		for (int k = 0; k < 3; ++k)
+			EXPECT_NEAR(c[k], blue_first.at<cv::Vec3b>(8, 8)[k] / 255.0, 0.02) << name << k;
+	}
+}
+
+TEST_F(PictureFormats, SizesAreRefusedBeforePixelsAreRead)
+{
+	// IHDR: width at byte 16, height at 20; the checksum is then wrong, which libpng would say in other words.
+	const std::string png = Bytes("grey8.png");
+	EXPECT_THAT(Refusal("zero.png", With32(png, 16, 0)), HasSubstr("damaged PNG"));
+	cv::imwrite(At("wide.png"), cv::Mat::zeros(2, 70000, CV_8U));
+	EXPECT_THAT(Refusal("wide.png"), HasSubstr("70000 x 2"));
+	// Start of frame (ff c0): height at 5, width at 7.
+	std::string jpeg = Bytes("grey.jpg");
+	const size_t frame = jpeg.find("\xff\xc0");
+	ASSERT_NE(frame, std::string::npos);
+	jpeg = With32(jpeg, frame + 5, 30000u << 16 | 30000u);
+	EXPECT_THAT(Refusal("bomb.jpg", jpeg), HasSubstr("30000 x 30000"));
+	EXPECT_THAT(Refusal("zero.jpg", With32(jpeg, frame + 5, 0)), HasSubstr("damaged JPEG"));
+}
+
+TEST_F(PictureFormats, WhatIsCutIsRefused)
+{
+	for (const PictureSeed& seed : seeds)
+		for (const double share : { 0.02, 0.5, 0.9, 0.98 })
+		{
+			// Of two parts the picture is the first and may be whole.
+			if (seed.name == "two-parts.exr" && share > 0.5)
+				continue;
+			EXPECT_NE(Refusal("cut-" + seed.name, seed.bytes.substr(0, size_t(share * double(seed.bytes.size())))), "") << seed.name << " " << share;
+		}
+}
+
+/// The thumbnail in EXIF has an end of its own, which must not be taken for the picture's.
+TEST_F(PictureFormats, CutJpegIsRefusedInSpiteOfItsThumbnail)
+{
+	const std::string thumbnail = Bytes("grey.jpg"), cut = thumbnail.substr(0, thumbnail.size() * 2 / 3);
+	const size_t length = thumbnail.size() + 2;
+	const std::string application = std::string("\xff\xe5") + char(length >> 8) + char(length & 255) + thumbnail;
+	EXPECT_THAT(Refusal("cut.jpg", cut.substr(0, 2) + application + cut.substr(2)), HasSubstr("damaged JPEG"));
+	EXPECT_EQ(Refusal("whole.jpg", thumbnail.substr(0, 2) + application + thumbnail.substr(2)), "");
+}
+
+TEST_F(PictureFormats, WhatIsNoFileIsRefusedAtOnce)
+{
+	ASSERT_EQ(mkfifo(At("pipe.png").c_str(), 0600), 0);
+	EXPECT_THAT(Refusal("pipe.png"), HasSubstr("pipe"));
+	fs::create_directory(At("folder.png"));
+	EXPECT_THAT(Refusal("folder.png"), HasSubstr("folder"));
+	EXPECT_THAT(Refusal("gone.png"), HasSubstr("no such file"));
+	EXPECT_THAT(Refusal("empty.png", ""), HasSubstr("empty"));
+	EXPECT_THAT(Refusal("text.png", "hello"), HasSubstr("not a picture"));
+	fs::create_symlink(At("loop.png"), At("loop.png"));
+	EXPECT_THAT(Refusal("loop.png"), HasSubstr("cannot be read"));
+	// Told by the content, not by the suffix.
+	EXPECT_EQ(Refusal("png.jpg", Bytes("grey8.png")), "");
+	if (geteuid() == 0)
+		return;   // root reads everything
+	EXPECT_EQ(Refusal("secret.png", Bytes("grey8.png")), "");
+	fs::permissions(At("secret.png"), fs::perms::none);
+	EXPECT_THAT(Refusal("secret.png"), HasSubstr("ermission"));
+}
+
+TEST_F(PictureFormats, WhatIsNoLightIsRefused)
+{
+	const auto with = [&](const char* name, float value)
+	{
+		cv::Mat image = Checkerboard();
+		image.at<float>(3, 3) = value;
+		cv::imwrite(At(name), image);
+		return Refusal(name);
+	};
+	EXPECT_THAT(with("nan.tif", std::numeric_limits<float>::quiet_NaN()), HasSubstr("not numbers"));
+	EXPECT_THAT(with("inf.tif", std::numeric_limits<float>::infinity()), HasSubstr("not numbers"));
+	EXPECT_THAT(with("negative.tif", -0.5f), HasSubstr("no light"));
+	EXPECT_THAT(with("huge.tif", 1e30f), HasSubstr("1 is white"));
+	// Noise about black is light.
+	EXPECT_EQ(with("noise.tif", -0.01f), "");
+}
+
+TEST_F(PictureFormats, ExifIsReadFromEveryKindThatHasIt)
+{
+	for (const char* const name : { "exif.jpg", "exif.png", "exif.tif" })
+	{
+		PhotographFacts facts;
+		ReadLinear(At(name), Transfer(), &facts);
+		EXPECT_EQ(facts.focal_length_mm, 45.0) << name;
+		EXPECT_EQ(facts.f_number, 2.8) << name;
+		EXPECT_EQ(facts.orientation, 6) << name;
+		EXPECT_EQ(facts.make, "Canon") << name;
+		EXPECT_EQ(facts.lens, "TS-E45mm f/2.8") << name;
+		// 3810.584 pixels an inch.
+		ASSERT_TRUE(facts.pitch_mm) << name;
+		EXPECT_NEAR(*facts.pitch_mm, 25.4 / 3810.584, 1e-9) << name;
+		EXPECT_EQ(Describe(facts), "Canon EOS 6D, TS-E45mm f/2.8, 45 mm, f/2.8, pitch 0.006666 mm");
+	}
+	PhotographFacts none;
+	ReadLinear(At("grey.jpg"), Transfer(), &none);
+	EXPECT_TRUE(none.Empty());
+	// A picture scaled since has another pitch.
+	EXPECT_FALSE(ReadFacts(ReadPictureFile(At("exif.jpg")), 90).pitch_mm);
+}
+
+TEST(Exif, CommonFactsAreThoseThatAgree)
+{
+	PhotographFacts a, b;
+	a.focal_length_mm = b.focal_length_mm = 45;
+	a.f_number = 2.8;
+	b.f_number = 4;
+	a.pitch_mm = 0.0066;
+	a.make = "Canon";
+	const PhotographFacts common = CommonFacts(std::vector<PhotographFacts>{ a, b });
+	EXPECT_EQ(common.focal_length_mm, 45.0);
+	EXPECT_FALSE(common.f_number);
+	EXPECT_FALSE(common.pitch_mm);
+	EXPECT_EQ(common.make, "Canon");
+}
+
+TEST(Exif, SpeaksWhenTheAnswerIsFarFromIt)
+{
+	Calibration c;
+	Photo photo;
+	photo.facts.focal_length_mm = 45;
+	photo.facts.f_number = 2.8;
+	c.task.states.push_back({ "untilted", false, { photo } });
+	c.solution.focal_length = { 45.8, 0.1 };
+	c.solution.aperture_diameter = { 45.8 / 2.9, 0.05 };
+	c.solution.w_mm = { 49.4, 0.1 };
+	EXPECT_THAT(CompareWithExif(c), testing::IsEmpty());
+	c.solution.focal_length = { 50.8, 0.1 };
+	EXPECT_THAT(CompareWithExif(c), testing::ElementsAre(testing::AllOf(HasSubstr("50.80"), HasSubstr("45 mm"), HasSubstr("w 49.40"))));
+	c.solution.aperture_diameter = { 8, 0.05 };
+	EXPECT_THAT(CompareWithExif(c), testing::ElementsAre(HasSubstr("focal length"), HasSubstr("f-number f/d 6.35")));
+}
+
+}
