@@ -98,6 +98,21 @@ Refinement ParseRefinement(const std::string& text)
 	throw UsageError(fmt::format("--refine {}: give none, edges or photometric", text));
 }
 
+/// A wrong --fix makes the photographs contradict themselves, which reads like a lack of photographs.
+Calibration CalibrateWithPriors(const Task& task, const std::string& model, Poses poses, Refinement refinement)
+{
+	try
+	{
+		return Calibrate(task, model, poses, refinement);
+	}
+	catch (const Error& e)
+	{
+		if (e.Code() != EXIT_REFUSED || task.priors.empty())
+			throw;
+		throw Refused(fmt::format("{}; or what --fix or --prior says is wrong: try without", e.what()));
+	}
+}
+
 void Run(const Options& o)
 {
 	const auto start = std::chrono::steady_clock::now();
@@ -121,7 +136,7 @@ void Run(const Options& o)
 
 	Task task = MeasureAll(states, board, pitch, transfer, o.detect, o.edges);
 	task.priors = priors;
-	const Calibration c = Calibrate(task, o.model, poses, refinement);
+	const Calibration c = CalibrateWithPriors(task, o.model, poses, refinement);
 	for (const std::string& words : CompareWithExif(c))
 		spdlog::warn("{}", words);
 	WriteEverything(c, transfer, o.out);
