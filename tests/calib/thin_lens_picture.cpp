@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <opencv2/imgproc.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -78,6 +79,24 @@ Pattern Checkerboard(int columns, int rows, double s)
 		if (i >= 0 && j >= 0 && i < columns && j < rows)
 			return (static_cast<int>(i) + static_cast<int>(j)) % 2 == 0 ? 0.05f : 0.8f;
 		return i >= -1 && j >= -1 && i <= columns + 1 && j <= rows + 1 ? 0.8f : 0.3f;
+	};
+}
+
+Pattern Circles(int columns, int rows, double s, double diameter, bool asymmetric)
+{
+	return [=](double x, double y)
+	{
+		const int row = static_cast<int>(std::lround(y / s));
+		// A circle reaches into the rows next to its own when it is larger than a spacing.
+		for (int j = std::max(row - 1, 0); j <= std::min(row + 1, rows - 1); ++j)
+		{
+			const double step = asymmetric ? 2 * s : s, first = asymmetric && j % 2 == 1 ? s : 0;
+			const double i = std::round((x - first) / step);
+			if (i >= 0 && i < columns && std::hypot(x - first - i * step, y - j * s) < 0.5 * diameter)
+				return 0.05f;
+		}
+		const double margin = 0.5 * (diameter + s), width = asymmetric ? (2 * columns - 1) * s : (columns - 1) * s;
+		return x >= -margin && y >= -margin && x <= width + margin && y <= (rows - 1) * s + margin ? 0.8f : 0.3f;
 	};
 }
 
