@@ -20,7 +20,8 @@ namespace tiltcal
 {
 
 /// As PixelEdgeResponse, for an edge of `curvature` (1/px), positive when it bends around its dark side.
-/// Domain: |x| below 1/|curvature| on the inner side; right to 2e-3 for 1/|curvature| above 3 px.
+/// Domain: |x| below 1/|curvature| on the inner side; right to 4e-3 for 1/|curvature| above 6 px, which is 0.003 px of
+/// place.
 EdgeResponse CurvedEdgeResponse(double x, double radius, double curvature, double box_a, double box_b);
 
 /// A point of an edge that bends.

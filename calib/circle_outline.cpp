@@ -23,32 +23,42 @@ CircleOutline::CircleOutline(const GridMap& map, const Vec2& place, double radiu
 {
 	const int points = 16;
 	const Vec2 shift = centre - map.Pixel(place);
-	series.fill(0);
+	cosines.fill(Vec2::Zero());
+	sines.fill(Vec2::Zero());
 	for (int m = 0; m < points; ++m)
 	{
 		const double t = 2 * PI * m / points;
 		const Vec2 p = map.Pixel(place + radius * Vec2(std::cos(t), std::sin(t))) + shift;
-		for (int k = -ORDER; k <= ORDER; ++k)
-			series[size_t(k + ORDER)] += std::complex<double>(p.x(), p.y()) * std::polar(1.0 / points, -k * t);
+		for (int k = 0; k <= ORDER; ++k)
+		{
+			cosines[size_t(k)] += (k == 0 ? 1.0 : 2.0) / points * std::cos(k * t) * p;
+			sines[size_t(k)] += 2.0 / points * std::sin(k * t) * p;
+		}
 	}
 	place_from_pixel = map.Jacobian(place).inverse();
 }
 
-Vec2 CircleOutline::Derivative(double t, int k) const
+CircleOutline::Point CircleOutline::All(double t) const
 {
-	const std::complex<double> turn = std::polar(1.0, t);
-	std::complex<double> sum = 0, power = std::polar(1.0, -ORDER * t);
-	for (int n = -ORDER; n <= ORDER; ++n, power *= turn)
+	const double c1 = std::cos(t), s1 = std::sin(t);
+	Point at{ cosines[0], Vec2::Zero(), Vec2::Zero() };
+	double c = 1, s = 0;
+	for (int k = 1; k <= ORDER; ++k)
 	{
-		const std::complex<double> in(0, n);
-		sum += series[size_t(n + ORDER)] * (k == 0 ? power : k == 1 ? in * power : in * in * power);
+		const double next = c * c1 - s * s1;
+		s = s * c1 + c * s1;
+		c = next;
+		const Vec2 value = c * cosines[size_t(k)] + s * sines[size_t(k)];
+		at.p += value;
+		at.first += k * (c * sines[size_t(k)] - s * cosines[size_t(k)]);
+		at.second -= k * k * value;
 	}
-	return { sum.real(), sum.imag() };
+	return at;
 }
 
 Vec2 CircleOutline::Outward(double t) const
 {
-	const Vec2 d = Derivative(t, 1).normalized();
+	const Vec2 d = Tangent(t).normalized();
 	return { d.y(), -d.x() };
 }
 
@@ -56,7 +66,7 @@ double CircleOutline::Curvature(double t, double reach) const
 {
 	const Vec2 p = At(t), inward = -Outward(t);
 	// Nearer steps lose digits and change nothing.
-	const double step = std::clamp(reach / Derivative(t, 1).norm(), 0.02, 1.2);
+	const double step = std::clamp(reach / Tangent(t).norm(), 0.02, 1.2);
 	double sum = 0;
 	for (const double side : { -step, step })
 	{
@@ -73,8 +83,9 @@ CircleOutline::Foot CircleOutline::FootOf(const Vec2& pixel) const
 	foot.t = std::atan2(on_board.y(), on_board.x());
 	for (int k = 0; k < 8; ++k)
 	{
-		const Vec2 gap = At(foot.t) - pixel, d = Derivative(foot.t, 1);
-		const double slope = d.squaredNorm() + gap.dot(Derivative(foot.t, 2));
+		const Point at = All(foot.t);
+		const Vec2 gap = at.p - pixel, d = at.first;
+		const double slope = d.squaredNorm() + gap.dot(at.second);
 		// Zero at the centre of curvature, d^2 on the outline.
 		if (slope < 0.1 * d.squaredNorm())
 			return foot;
@@ -99,7 +110,7 @@ Vec2 CircleOutline::Centroid() const
 	{
 		const double t = 2 * PI * k / 32;
 		const Vec2 p = At(t) - centre;
-		const double w = Cross(p, Derivative(t, 1));
+		const double w = Cross(p, Tangent(t));
 		area += w / 2;
 		moment += w / 3 * p;
 	}

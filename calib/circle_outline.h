@@ -8,7 +8,6 @@
 #include "grid_map.h"
 
 #include <array>
-#include <complex>
 
 namespace tiltcal
 {
@@ -22,10 +21,10 @@ public:
 	/// centre, px: the map gives the shape, not the place.
 	CircleOutline(const GridMap& map, const Vec2& place, double radius, const Vec2& centre);
 
-	Vec2 At(double t) const { return Derivative(t, 0); }
+	Vec2 At(double t) const { return All(t).p; }
 
-	/// d^k p / dt^k.
-	Vec2 Derivative(double t, int k) const;
+	/// dp / dt.
+	Vec2 Tangent(double t) const { return All(t).first; }
 
 	/// Unit normal away from the circle.
 	Vec2 Outward(double t) const;
@@ -49,8 +48,14 @@ public:
 	double SmallerRadius() const;
 
 private:
+	struct Point
+	{
+		Vec2 p, first, second;   // and derivatives by t
+	};
+	Point All(double t) const;
+
 	static const int ORDER = 4;
-	std::array<std::complex<double>, 2 * ORDER + 1> series;
+	std::array<Vec2, ORDER + 1> cosines, sines;   // of multiples of t
 	Vec2 centre;
 	Eigen::Matrix2d place_from_pixel;   // near the centre
 };

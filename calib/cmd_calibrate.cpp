@@ -137,8 +137,8 @@ void AddCalibrate(CLI::App& app)
 		"      --tilted plus5='target/plus5-*.png' --tilted minus5='target/minus5-*.png' --out calibration\n\n"
 		"Photograph the board inclined by 20 to 45 degrees in several directions, with parts before and\n"
 		"behind the plane of focus. Lengths are mm, angles degrees, picture measures pixels.\n"
-		"Circles, dark on white or white on dark, must be larger than their blur: its radius may be 0.6 of theirs. Grids that look\n"
-		"the same turned (circles; asymmetric ones with an even number of rows) are numbered from the picture's top left.\n"
+		"Circles, dark on white or white on dark, must be larger than their blur: its radius may be 0.6 of theirs. Circles look the same turned\n"
+		"by 180 degrees, as many columns as rows by 90: the picture's top left circle is the first. Asymmetric grids need an odd number of rows.\n"
 		"Exit codes: 0 done, 1 refused or not converged, 2 wrong usage, 3 unreadable or unwritable file.");
 	c->callback([o] { Run(*o); });
 }

@@ -88,9 +88,9 @@ void AddDetect(CLI::App& app)
 		"widths are rough, and their sigmas too small by up to three times.\n"
 		"Circles, dark on white or white on dark: the corners are the images of the circles' centres, column and row their\n"
 		"places in spacings (asymmetric: 0, 2, 4, .. and 1, 3, 5, ..), the edges parts of their outlines. Circles must be some 10\n"
-		"pixels across; blur radii up to 0.6 of a circle's are measured. A grid that looks the same turned (circles by 180\n"
-		"degrees, as many columns as rows by 90; asymmetric ones with an even number of rows by 180) begins at the\n"
-		"picture's top left.\n"
+		"pixels across; blur radii up to 0.6 of a circle's are measured. Circles look the same turned by 180\n"
+		"degrees, as many columns as rows by 90: the picture's top left circle is the first. Asymmetric grids need an odd\n"
+		"number of rows.\n"
 		"Exit codes: 0 done, 1 refused, 2 wrong usage, 3 unreadable or unwritable file.");
 	c->callback([o] { Run(*o); });
 }

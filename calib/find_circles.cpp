@@ -119,12 +119,13 @@ double Light(const cv::Mat& grey, const Vec2& p)
 	return x < 0 || y < 0 || x >= grey.cols || y >= grey.rows ? -1 : grey.at<float>(int(y), int(x));
 }
 
-/// (around - middle) / (around + middle) of the circle at `place`, there or not; negative for white circles. -2: outside the picture.
-double Contrast(const cv::Mat& grey, const Board& board, const GridMap& map, const Vec2& place)
+/// Contrast of the circle at `place`, there or not, to the darkest of what lies around it (white circles: the brightest), so that a change of the
+/// ground is not one: |around - middle| / (around + middle), negative when it is the other way round. -2: outside the picture.
+double Contrast(const cv::Mat& grey, const Board& board, const GridMap& map, const Vec2& place, bool bright)
 {
 	const bool diagonal = board.kind == TargetKind::CIRCLES;
-	double around = 0, middle = 0;
-	int seen = 0;
+	std::vector<double> around;
+	double middle = 0;
 	for (int k = 0; k < 4; ++k)
 	{
 		const double t = PI / 2 * k + (diagonal ? PI / 4 : 0);
@@ -134,13 +135,13 @@ double Contrast(const cv::Mat& grey, const Board& board, const GridMap& map, con
 			return -2;
 		middle += near / 4;
 		if (far >= 0)
-			around += far, ++seen;
+			around.push_back(far);
 	}
 	// A grid may reach to the picture's rim.
-	if (seen < 2)
+	if (around.size() < 2)
 		return -2;
-	around /= seen;
-	return (around - middle) / std::max(around + middle, 1e-9);
+	const double ground = bright ? *std::max_element(around.begin(), around.end()) : *std::min_element(around.begin(), around.end());
+	return (bright ? -1 : 1) * (ground - middle) / std::max(ground + middle, 1e-9);
 }
 
 /// Whether the points lie as a grid does, and there is a circle at each.
@@ -154,7 +155,7 @@ bool Plausible(const cv::Mat& grey, const Board& board, const std::vector<Corner
 		const double side = std::sqrt(std::abs(map.Jacobian(place).determinant()));
 		if (!((map.Pixel(place) - Vec2(c.x, c.y)).norm() < 0.15 * side))
 			return false;
-		good += (bright ? -1 : 1) * Contrast(grey, board, map, place) > 0.1;
+		good += Contrast(grey, board, map, place, bright) > 0.1;
 	}
 	return good >= centres.size() * 95 / 100;
 }
@@ -163,19 +164,18 @@ bool Plausible(const cv::Mat& grey, const Board& board, const std::vector<Corner
 void RefuseLarger(const cv::Mat& grey, const Board& board, const std::vector<Corner>& centres, bool bright, const std::string& file)
 {
 	const GridMap map(centres);
-	const double sign = bright ? -1 : 1;
 	std::vector<double> inside;
 	for (const Corner& c : centres)
-		inside.push_back(sign * Contrast(grey, board, map, Vec2(c.column, c.row)));
+		inside.push_back(Contrast(grey, board, map, Vec2(c.column, c.row), bright));
 	const double least = 0.4 * Median(inside);
 	const auto check = [&](const char* side, int count, auto place)
 	{
 		std::vector<double> beyond;
 		for (int k = 0; k < count; ++k)
 		{
-			const double c = Contrast(grey, board, map, place(k));
+			const double c = Contrast(grey, board, map, place(k), bright);
 			if (c > -2)
-				beyond.push_back(sign * c);
+				beyond.push_back(c);
 		}
 		if (2 * beyond.size() >= size_t(count) && Median(beyond) > least)
 			throw Refused(fmt::format("{}: the grid goes on beyond {}x{} circles at its {}: count the circles again for --board", file, board.columns, board.rows, side));
@@ -234,15 +234,10 @@ void BeginTopLeft(Points& p, const Board& b)
 /// Right-handed in the picture (y down), and begun where the header says.
 void Orient(Points& p, const Board& b, const DetectOptions& options, const std::string& file)
 {
-	const bool asymmetric = b.kind == TargetKind::ASYMMETRIC_CIRCLES, ends_differ = asymmetric && b.rows % 2 != 0;
+	// All grids look the same when their rows are counted from the other end.
 	if (!RightHanded(p, b))
-	{
-		if (asymmetric && !ends_differ)
-			throw Refused(fmt::format("{}: the picture is mirrored: the second row of circles is moved to the wrong side; un-mirror it", file));
-		// These look the same when their rows are counted from the other end.
 		ReverseRows(p, b);
-	}
-	if (!ends_differ)
+	if (b.kind == TargetKind::CIRCLES)
 	{
 		BeginTopLeft(p, b);
 		return;
@@ -277,16 +272,6 @@ double SeenRadius(const cv::Mat& grey, const Board& board, const std::vector<Cor
 		}
 	}
 	return radii.empty() ? 0 : Median(radii);
-}
-
-/// Diameters may differ from the board's by what printing and exposure do, not more.
-const double DIAMETER_TOLERANCE = 0.12;
-
-void CheckDiameter(const Board& board, double radius, const std::string& file)
-{
-	if (std::abs(radius / board.CircleRadius() - 1) > DIAMETER_TOLERANCE)
-		throw Refused(fmt::format("{}: the circles' diameter is {:.3f} of their spacing, the board's {:.3f}: give --circle-diameter {:.3g} if --square {:g} is right",
-			file, 2 * radius, 2 * board.CircleRadius(), 2 * radius * board.square_mm, board.square_mm));
 }
 
 /// Blobs' middles to centres.
@@ -373,6 +358,9 @@ struct Search
 
 FoundCircles FindCircles(const cv::Mat& grey, const Board& board, const DetectOptions& options, const std::string& file)
 {
+	if (board.kind == TargetKind::ASYMMETRIC_CIRCLES && board.rows % 2 == 0)
+		throw UsageError(fmt::format("--board {}x{}: asymmetric grids with an even number of rows look the same turned by 180 degrees, and OpenCV does not find them reliably: "
+			"use one with an odd number, such as 4x11", board.columns, board.rows));
 	FoundCircles found;
 	Search search{ grey, board };
 	Points points = search.Everywhere(found.bright);
@@ -384,7 +372,6 @@ FoundCircles FindCircles(const cv::Mat& grey, const Board& board, const DetectOp
 	found.centres = Numbered(points, board);
 	RefuseLarger(grey, board, found.centres, found.bright, file);
 	found.radius = SeenRadius(grey, board, found.centres);
-	CheckDiameter(board, found.radius, file);
 	Unbias(found.centres, found.radius);
 	return found;
 }

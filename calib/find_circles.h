@@ -27,9 +27,9 @@ struct FoundCircles
 /// OpenCV's blobs and its findCirclesGrid in `grey` (linear light, CV_32FC1) reduced to several sizes, as it is and with
 /// local mean and contrast made equal; dark circles first, then white ones. Blobs' middles are
 /// moved to where the circles' centres are in perspective.
-/// First is the circle at the picture's top left where the grid looks the same turned (circles: by 180 degrees, as many columns
-/// as rows: by 90; asymmetric: an even number of rows, by 180), else the pattern decides.
-/// Throws Refused: no grid, another size, mirrored, a diameter that is not the board's; `file` is named in the message.
+/// Circles look the same turned by 180 degrees, as many columns as rows also by 90: the picture's top left is the first. In asymmetric
+/// grids the pattern decides.
+/// Throws Refused: no grid, another size, mirrored; `file` is named in the message. UsageError: asymmetric, an even number of rows.
 FoundCircles FindCircles(const cv::Mat& grey, const Board& board, const DetectOptions& options, const std::string& file);
 
 }

@@ -47,8 +47,8 @@ struct CircleView::Arc
 		{
 			t[k] = middle + side * half * (2.0 * k / (NODES - 1) - 1);
 			// Simpson.
-			s[k] = k == 0 ? 0 : s[k - 1] + std::abs(t[k] - t[k - 1]) / 6 * (outline.Derivative(t[k - 1], 1).norm()
-				+ 4 * outline.Derivative(0.5 * (t[k - 1] + t[k]), 1).norm() + outline.Derivative(t[k], 1).norm());
+			s[k] = k == 0 ? 0 : s[k - 1] + std::abs(t[k] - t[k - 1]) / 6 * (outline.Tangent(t[k - 1]).norm()
+				+ 4 * outline.Tangent(0.5 * (t[k - 1] + t[k])).norm() + outline.Tangent(t[k]).norm());
 			least_radius = std::min(least_radius, 1 / std::max(outline.Curvature(t[k], 0), 1e-9));
 		}
 		const double zero = s[NODES / 2];
@@ -103,6 +103,9 @@ CircleView::CircleView(const cv::Mat& grey, const Board& board, const GridMap& m
 		for (int x = x0; x <= x1; ++x)
 		{
 			const Vec2 p(x, y), m = inverse * (p - centre);
+			// In the middle the outline's nearest point is not one, and far outside others are nearer.
+			if (m.squaredNorm() > far * far || m.norm() < (1 - INNER_SHARE) * radius)
+				continue;
 			double clearance = 1e300;
 			for (const Vec2& n : neighbours)
 			{

@@ -190,18 +190,25 @@ void Repeat(const Grid& grid, bool rough, std::vector<MeasuredArc>& all)
 
 void RefuseTooBlurred(const std::vector<MeasuredArc>& all, const std::string& file)
 {
-	std::vector<double> ratios;
-	for (const MeasuredArc& m : all)
-		if (m.outcome == EdgeOutcome::TOO_BLURRED)
-			ratios.push_back(m.edge.BlurRatio());
+	const auto blurred = std::count_if(all.begin(), all.end(), [](const MeasuredArc& m) { return m.outcome == EdgeOutcome::TOO_BLURRED; });
 	const auto lost = std::count_if(all.begin(), all.end(), [](const MeasuredArc& m) { return m.outcome != EdgeOutcome::MEASURED; });
 	if (2 * lost < long(all.size()))
 		return;
-	if (2 * long(ratios.size()) < lost)
+	if (2 * blurred < lost)
 		throw Refused(fmt::format("{}: the outlines of {} of {} arcs of circles could not be fitted: is the picture sharp enough, without reflections and noise, and are the circles round?",
 			file, lost, all.size()));
-	throw Refused(fmt::format("{}: too blurred: the radius of the blur is {:.2f} of a circle's radius (median of what cannot be measured), {:.2f} can be measured at most. "
-		"Stop down, move the board nearer to the plane of focus, or use a grid of larger circles", file, Median(ratios), MOST_CIRCLE_RATIO));
+	throw Refused(fmt::format("{}: too blurred: in {} of {} arcs of circles the radius of the blur is above {:.2f} of the circle's radius, the most that can be measured. "
+		"Stop down, move the board nearer to the plane of focus, or use a grid of larger circles", file, blurred, all.size(), MOST_CIRCLE_RATIO));
+}
+
+/// Diameters may differ from the board's by what printing and exposure do, not more.
+const double DIAMETER_TOLERANCE = 0.12;
+
+void CheckDiameter(const Board& board, double radius, const std::string& file)
+{
+	if (std::abs(radius / board.CircleRadius() - 1) > DIAMETER_TOLERANCE)
+		throw Refused(fmt::format("{}: the circles' diameter is {:.3f} of their spacing, the board's {:.3f}: give --circle-diameter {:.3g} if --square {:g} is right",
+			file, 2 * radius, 2 * board.CircleRadius(), 2 * radius * board.square_mm, board.square_mm));
 }
 
 }
@@ -222,6 +229,7 @@ void MeasureCircles(const cv::Mat& grey, const Board& board, const DetectOptions
 		RefuseTooBlurred(all, photo.file);
 		MoveCentres(grid, all);
 	}
+	CheckDiameter(board, grid.radius, photo.file);
 	photo.bright_circles = grid.bright;
 	photo.corners = grid.centres;
 	photo.edges.clear();

@@ -23,7 +23,7 @@ const double MOST_CIRCLE_RATIO = 0.6;
 /// of the board under the map that the centres give (grid_map.h), so the centre is not the middle of the ellipse but where perspective puts it;
 /// the place is fitted to the arcs of the circle, the circles' diameter to all arcs of the photograph, and that three times.
 /// Circles without enough arcs (`choice`) keep what FindCircles says.
-/// Throws Refused: FindCircles', circles too small, blur above MOST_CIRCLE_RATIO.
+/// Throws Refused: FindCircles', circles too small, blur above MOST_CIRCLE_RATIO, another diameter than the board's.
 void MeasureCircles(const cv::Mat& grey, const Board& board, const DetectOptions& options, Photo& photo, const EdgeChoice& choice = {});
 
 }

@@ -64,7 +64,7 @@ State Photograph(const std::string& name, double tilt, const Board& board)
 		Aim(scene, middle.x(), middle.y(), pose.distance, pose.incline, pose.direction, 4);
 		scene.noise = 0.006;
 		scene.seed = unsigned(state.photos.size()) + 1 + (tilt != 0 ? 10 : 0);
-		scene.lens_points = 150;
+		scene.lens_points = 80;
 		const cv::Mat picture = TakePicture(scene, Circles(board.columns, board.rows, board.square_mm, board.circle_diameter_mm, board.kind == TargetKind::ASYMMETRIC_CIRCLES));
 		Photo photo;
 		photo.file = name;

@@ -89,7 +89,7 @@ Scene Inclined(const Board& board, double ratio, double incline, double directio
 	// Blur on the board: aperture/2 |1 - distance/focus|.
 	scene.focus_point = Eigen::Vector3d(0, 0, distance / (1 - ratio * radius / (0.5 * scene.aperture)));
 	scene.noise = 0.006;
-	scene.lens_points = 250;
+	scene.lens_points = 160;
 	return scene;
 }
 
@@ -109,7 +109,7 @@ TEST_P(CirclesMeasured, CentresAndBlur)
 	const Errors e = Measure(scene, board, TakePicture(scene, PatternOf(board)));
 	// The task's bound. Ellipses' middles are up to 0.3 px beside the centres in the inclined pictures.
 	EXPECT_LT(e.centre, 0.05);
-	// Sigmas hold the noise; 250 lens points are grainy, and neighbouring arcs share no pixel.
+	// Sigmas hold the noise; 160 lens points are grainy, and neighbouring arcs share no pixel.
 	EXPECT_LT(e.centre_sigmas, 1.5);
 	EXPECT_GT(e.centre_sigmas, 0.6);
 	// Below a pixel the blur hides behind the pixel.
@@ -166,12 +166,12 @@ TEST(Circles, WrongGridsAreRefused)
 {
 	const Board board = Symmetric();
 	Scene scene = Inclined(board, 0.1, 20, 60);
-	scene.lens_points = 60;
+	scene.lens_points = 24;
 	const cv::Mat picture = TakePicture(scene, PatternOf(board));
 	ASSERT_EQ(Refusal(picture, board), "");
 	for (const auto& [columns, rows] : { std::pair{ 7, 6 }, std::pair{ 8, 5 }, std::pair{ 9, 6 }, std::pair{ 8, 7 } })
 		EXPECT_NE(Refusal(picture, Symmetric(columns, rows)), "") << columns << "x" << rows;
-	EXPECT_NE(Refusal(picture, Asymmetric(4, 6)), "");
+	EXPECT_NE(Refusal(picture, Asymmetric(4, 7)), "");
 	// 16 mm instead of 13.
 	EXPECT_NE(Refusal(picture, MakeBoard(TargetKind::CIRCLES, "8x6", SPACING, 16, "")).find("--circle-diameter 13"), std::string::npos);
 	cv::Mat covered = picture.clone();
@@ -182,20 +182,19 @@ TEST(Circles, WrongGridsAreRefused)
 
 TEST(Circles, MirroredAsymmetricGridsAreRefused)
 {
-	for (const int rows : { 9, 8 })
-	{
-		const Board board = Asymmetric(4, rows);
-		Scene scene = Inclined(board, 0.1, 20, 60);
-		scene.lens_points = 60;
-		const cv::Mat picture = TakePicture(scene, PatternOf(board));
-		EXPECT_EQ(Refusal(picture, board), "") << rows;
-		cv::Mat mirrored, turned;
-		cv::flip(picture, mirrored, 1);
-		EXPECT_NE(Refusal(mirrored, board).find("mirrored"), std::string::npos) << rows;
-		cv::flip(picture, turned, -1);
-		// An odd number of rows tells up from down.
-		EXPECT_EQ(Refusal(turned, board).find("upside down") != std::string::npos, rows == 9) << Refusal(turned, board);
-	}
+	const Board board = Asymmetric();
+	Scene scene = Inclined(board, 0.1, 20, 60);
+	scene.lens_points = 24;
+	const cv::Mat picture = TakePicture(scene, PatternOf(board));
+	EXPECT_EQ(Refusal(picture, board), "");
+	cv::Mat mirrored, turned;
+	cv::flip(picture, mirrored, 1);
+	EXPECT_NE(Refusal(mirrored, board).find("mirrored"), std::string::npos);
+	cv::flip(picture, turned, -1);
+	EXPECT_NE(Refusal(turned, board).find("upside down"), std::string::npos);
+	const FoundCircles found = FindCircles(turned, board, { true }, "turned");
+	EXPECT_GT(found.centres.front().x, found.centres.back().x);
+	EXPECT_NE(Refusal(picture, Asymmetric(4, 8)).find("odd number"), std::string::npos);
 }
 
 TEST(Circles, GridsThatLookTheSameTurnedBeginAtThePicturesTopLeft)
@@ -204,7 +203,7 @@ TEST(Circles, GridsThatLookTheSameTurnedBeginAtThePicturesTopLeft)
 	for (const double turn : { 20.0, 110.0, 200.0, -70.0 })
 	{
 		Scene scene = Inclined(board, 0.1, 15, 60);
-		scene.lens_points = 40;
+		scene.lens_points = 24;
 		const Eigen::Vector2d middle = Middle(board);
 		Aim(scene, middle.x(), middle.y(), 420, 15, 60, turn);
 		const FoundCircles found = FindCircles(TakePicture(scene, PatternOf(board)), board, {}, "turned");
@@ -218,10 +217,10 @@ TEST(Circles, GridsThatLookTheSameTurnedBeginAtThePicturesTopLeft)
 TEST(Circles, TooBlurredIsRefusedWithTheRatio)
 {
 	const Board board = Symmetric();
-	for (const double ratio : { 0.75, 0.95, 1.3 })
+	for (const double ratio : { 0.75, 0.95 })
 	{
 		Scene scene = Inclined(board, ratio, 10, 60);
-		scene.lens_points = 150;
+		scene.lens_points = 60;
 		const std::string text = Refusal(TakePicture(scene, PatternOf(board)), board);
 		EXPECT_NE(text.find("blur"), std::string::npos) << ratio << ": " << text;
 		std::printf("%.2f: %s\n", ratio, text.c_str());

@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 #include <opencv2/imgproc.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -86,13 +85,13 @@ Pattern Circles(int columns, int rows, double s, double diameter, bool asymmetri
 {
 	return [=](double x, double y)
 	{
-		const int row = static_cast<int>(std::lround(y / s));
-		// A circle reaches into the rows next to its own when it is larger than a spacing.
-		for (int j = std::max(row - 1, 0); j <= std::min(row + 1, rows - 1); ++j)
+		const double row = std::floor(y / s + 0.5);
+		// A circle reaches into the rows next to its own when it is larger than a spacing; none does in these pictures.
+		if (row >= 0 && row < rows)
 		{
-			const double step = asymmetric ? 2 * s : s, first = asymmetric && j % 2 == 1 ? s : 0;
-			const double i = std::round((x - first) / step);
-			if (i >= 0 && i < columns && std::hypot(x - first - i * step, y - j * s) < 0.5 * diameter)
+			const double step = asymmetric ? 2 * s : s, first = asymmetric && static_cast<int>(row) % 2 == 1 ? s : 0;
+			const double i = std::floor((x - first) / step + 0.5), dx = x - first - i * step, dy = y - row * s;
+			if (i >= 0 && i < columns && dx * dx + dy * dy < 0.25 * diameter * diameter)
 				return 0.05f;
 		}
 		const double margin = 0.5 * (diameter + s), width = asymmetric ? (2 * columns - 1) * s : (columns - 1) * s;

@@ -40,7 +40,7 @@ using Pattern = std::function<float(double x, double y)>;
 Pattern Checkerboard(int columns, int rows, double square_mm);
 
 /// Dark circles on white, the first centre at the origin, white half a spacing beyond the circles. Asymmetric: circles two spacings apart in a row, every
-/// second row moved by one.
+/// second row moved by one. Diameters up to a spacing.
 Pattern Circles(int columns, int rows, double spacing_mm, double diameter_mm, bool asymmetric);
 
 /// CV_32FC1, linear light.
