@@ -111,7 +111,7 @@ void TiltIsFound(const Board& board)
 	EXPECT_EQ(overlay.cols, 640);
 }
 
-TEST(CalibrateCircles, TiltFromASymmetricGrid) { TiltIsFound(MakeBoard(TargetKind::CIRCLES, "11x8", 25, 15, "")); }
+TEST(CalibrateCircles, TiltFromASymmetricGrid) { TiltIsFound(MakeBoard(TargetKind::CIRCLES, "9x7", 27, 16, "")); }
 TEST(CalibrateCircles, TiltFromAnAsymmetricGrid) { TiltIsFound(MakeBoard(TargetKind::ASYMMETRIC_CIRCLES, "6x9", 22, 16, "")); }
 
 }
