@@ -87,7 +87,7 @@ void AddDetect(CLI::App& app)
 		"Blur radii up to 0.5 of a square are measured; more blurred photographs are refused. Above 0.4 corners and\n"
 		"widths are rough, and their sigmas too small by up to three times.\n"
 		"Circles, dark on white or white on dark: the corners are the images of the circles' centres, column and row their\n"
-		"places in spacings (asymmetric: 0, 2, 4, .. and 1, 3, 5, ..), the edges parts of their outlines. Circles must be some 10\n"
+		"places in spacings (asymmetric: 0, 2, 4, .. and 1, 3, 5, ..), the edges parts of their outlines. Circles must be some 12\n"
 		"pixels across; blur radii up to 0.6 of a circle's are measured. Circles look the same turned by 180\n"
 		"degrees, as many columns as rows by 90: the picture's top left circle is the first. Asymmetric grids need an odd\n"
 		"number of rows.\n"

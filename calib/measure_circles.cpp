@@ -37,7 +37,7 @@ struct Grid
 	double radius;                 // of the circles, in units of the spacing
 	std::vector<Corner> centres;
 	std::vector<CircleView> views;
-	int arcs = 8;
+	std::vector<int> arcs;         // of every circle
 
 	size_t Index(const ArcPlace& p) const { return size_t(p.row * board.columns + p.index); }
 };
@@ -68,22 +68,26 @@ void Look(Grid& grid)
 		grid.views.push_back(std::move(v[0]));
 }
 
-/// Least smaller radius, px, of circles whose outline can be measured, and from which on it is measured in 8 arcs.
-const double LEAST_RADIUS = 4.5, EIGHT_ARCS = 7.5;
+/// Least smaller radius, px, of circles whose outline can be measured, and from which on it is measured in MOST_ARCS: the inner
+/// quarter of an arc's pixels must be some ten.
+const double LEAST_RADIUS = 6, RADIUS_OF_MOST = 9.5;
+const int MOST_ARCS = 8, FEW_ARCS = 4;
 
 void ChooseArcs(Grid& grid, const std::string& file)
 {
 	std::vector<double> radii;
 	for (const CircleView& v : grid.views)
+	{
 		radii.push_back(v.SmallerRadius());
+		grid.arcs.push_back(radii.back() < RADIUS_OF_MOST ? FEW_ARCS : MOST_ARCS);
+	}
 	const double median = Median(radii);
 	if (median < LEAST_RADIUS)
 		throw Refused(fmt::format("{}: the circles are only {:.1f} pixels across, at least {:.0f} are needed: go nearer, photograph with more pixels, or use a grid of larger circles",
 			file, 2 * median, 2 * LEAST_RADIUS));
-	grid.arcs = median < EIGHT_ARCS ? 4 : 8;
 }
 
-/// Place of a circle from its arcs, with their own uncertainties: it may move, and grow. False: too few arcs.
+/// Place of a circle from its arcs, with their own uncertainties: it may move, and grow. Not solved: too few arcs.
 struct Moved
 {
 	bool solved = false;
@@ -97,7 +101,7 @@ struct Moved
 Moved Move(const Grid& grid, size_t circle, const std::vector<const Edge*>& edges)
 {
 	Moved moved;
-	if (int(edges.size()) * 8 < grid.arcs * 5)
+	if (int(edges.size()) * 8 < grid.arcs[circle] * 5)
 		return moved;
 	const Corner& c = grid.centres[circle];
 	Eigen::MatrixX3d A(edges.size(), 3);
@@ -162,14 +166,15 @@ void MoveCentres(Grid& grid, const std::vector<MeasuredArc>& all)
 /// All arcs that are wanted once; those that fail are replaced by the next in the order.
 void MeasureFirst(const Grid& grid, const EdgeChoice& choice, std::vector<MeasuredArc>& all)
 {
-	for (const ArcPlace& place : SpreadArcs(grid.board, grid.arcs, choice.phase))
-		all.push_back({ place, EdgeOutcome::FAILED, {} });
+	for (const ArcPlace& place : SpreadArcs(grid.board, MOST_ARCS, choice.phase))
+		if (place.arc < grid.arcs[grid.Index(place)])
+			all.push_back({ place, EdgeOutcome::FAILED, {} });
 	const size_t wanted = choice.most > 0 ? std::min(size_t(choice.most), all.size()) : all.size();
 	size_t tried = 0, found = 0;
 	while (found < wanted && tried < all.size())
 	{
 		const size_t end = std::min(tried + wanted - found, all.size());
-		Parallel(tried, end, [&](size_t k) { all[k].outcome = grid.views[grid.Index(all[k].place)].Measure(all[k].place.arc, grid.arcs, 0, true, all[k].edge); });
+		Parallel(tried, end, [&](size_t k) { all[k].outcome = grid.views[grid.Index(all[k].place)].Measure(all[k].place.arc, grid.arcs[grid.Index(all[k].place)], 0, true, all[k].edge); });
 		for (; tried < end; ++tried)
 			found += all[tried].outcome == EdgeOutcome::MEASURED;
 	}
@@ -184,7 +189,7 @@ void Repeat(const Grid& grid, bool rough, std::vector<MeasuredArc>& all)
 		MeasuredArc& m = all[k];
 		const double start = m.outcome == EdgeOutcome::MEASURED ? 0.5 * m.edge.blur : 0;
 		m.edge = {};
-		m.outcome = grid.views[grid.Index(m.place)].Measure(m.place.arc, grid.arcs, start, rough, m.edge);
+		m.outcome = grid.views[grid.Index(m.place)].Measure(m.place.arc, grid.arcs[grid.Index(m.place)], start, rough, m.edge);
 	});
 }
 
@@ -216,7 +221,7 @@ void CheckDiameter(const Board& board, double radius, const std::string& file)
 void MeasureCircles(const cv::Mat& grey, const Board& board, const DetectOptions& options, Photo& photo, const EdgeChoice& choice)
 {
 	const FoundCircles found = FindCircles(grey, board, options, photo.file);
-	Grid grid{ grey, board, found.bright, found.radius, found.centres, {}, 8 };
+	Grid grid{ grey, board, found.bright, found.radius, found.centres, {}, {} };
 	Look(grid);
 	ChooseArcs(grid, photo.file);
 	std::vector<MeasuredArc> all;

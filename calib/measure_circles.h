@@ -17,7 +17,7 @@ namespace tiltcal
 /// Blur radius over a circle's smaller radius in the picture above which arcs are not measured.
 const double MOST_CIRCLE_RATIO = 0.6;
 
-/// Finds the circles in `grey` (linear light, find_circles.h) and fits the blurred outline of each in 8 arcs, 4 where circles are small
+/// Finds the circles in `grey` (linear light, find_circles.h) and fits the blurred outline of each in 8 arcs, 4 where it is small
 /// (edge_fit.h with circle_edge.h); fills photo.corners with the images of the circles' centres, photo.edges with the arcs and
 /// what else board.h says. An arc's pixels are those that no other circle's blur reaches. The outline's shape is that of a circle
 /// of the board under the map that the centres give (grid_map.h), so the centre is not the middle of the ellipse but where perspective puts it;

@@ -47,7 +47,7 @@ void FocusOn(Scene& scene)
 	scene.focus_normal = (seen[1] - seen[0]).cross(seen[2] - seen[0]).normalized();
 }
 
-State Photograph(const std::string& name, double tilt, const Board& board)
+State Photograph(const std::string& name, double tilt, const Board& board, size_t photos)
 {
 	State state;
 	state.name = name;
@@ -55,8 +55,9 @@ State Photograph(const std::string& name, double tilt, const Board& board)
 	const Eigen::Vector2d middle = 0.5 * board.square_mm * Eigen::Vector2d(board.CircleColumn(board.columns - 1, board.rows - 1), board.rows - 1);
 	// Incline and its direction; before and behind the plane of focus at 720 mm.
 	const struct { double incline, direction, distance; } poses[] = { { 30, 0, 640 }, { 35, 95, 690 }, { 30, 200, 740 }, { 35, 290, 700 } };
-	for (const auto& pose : poses)
+	for (size_t k = 0; k < photos; ++k)
 	{
+		const auto& pose = poses[k];
 		Scene scene;
 		scene.aperture = D;
 		scene.lens_normal = LensNormal(tilt);
@@ -77,14 +78,14 @@ State Photograph(const std::string& name, double tilt, const Board& board)
 	return state;
 }
 
-void TiltIsFound(const Board& board)
+void TiltIsFound(const Board& board, size_t photos)
 {
 	Task task;
 	task.board = board;
 	task.pitch_mm = PITCH;
 	task.width = 640;
 	task.height = 480;
-	task.states = { Photograph("untilted", 0, board), Photograph("plus5", TILT, board) };
+	task.states = { Photograph("untilted", 0, board, photos), Photograph("plus5", TILT, board, photos) };
 	const Calibration c = Calibrate(task, "plane", Poses::AUTO);
 	const StateLens& lens = c.solution.states[1];
 	const double phi = lens.tilt_direction.value * M_PI / 180, tilt = lens.lens_tilt.value, true_phi = DIRECTION * M_PI / 180;
@@ -111,7 +112,7 @@ void TiltIsFound(const Board& board)
 	EXPECT_EQ(overlay.cols, 640);
 }
 
-TEST(CalibrateCircles, TiltFromASymmetricGrid) { TiltIsFound(MakeBoard(TargetKind::CIRCLES, "9x7", 27, 16, "")); }
-TEST(CalibrateCircles, TiltFromAnAsymmetricGrid) { TiltIsFound(MakeBoard(TargetKind::ASYMMETRIC_CIRCLES, "6x9", 22, 16, "")); }
+TEST(CalibrateCircles, TiltFromASymmetricGrid) { TiltIsFound(MakeBoard(TargetKind::CIRCLES, "9x7", 27, 16, ""), 4); }
+TEST(CalibrateCircles, TiltFromAnAsymmetricGrid) { TiltIsFound(MakeBoard(TargetKind::ASYMMETRIC_CIRCLES, "6x9", 22, 16, ""), 3); }
 
 }

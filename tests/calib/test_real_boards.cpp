@@ -226,7 +226,7 @@ TEST(RealBoards, SonyCirclesAreFoundAndFit)
 		// Blobs' middles are beside the centres by up to 0.25 px in perspective (10 px of radius, inclined by 45 degrees) and rough by 0.1 px.
 		EXPECT_LT(sum, 0.25) << photo.file;
 		EXPECT_LT(worst, 0.7) << photo.file;
-		EXPECT_GT(photo.edges.size(), 500u) << photo.file;
+		EXPECT_LT(photo.edges_dropped, 20) << photo.file;   // of 360 to 640: at the rim of the picture
 	}
 	const Geometry g = SelectGeometry(task, {});
 	const int flags = cv::CALIB_ZERO_TANGENT_DIST | cv::CALIB_FIX_ASPECT_RATIO | cv::CALIB_FIX_K2 | cv::CALIB_FIX_K3;
