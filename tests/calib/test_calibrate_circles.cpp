@@ -100,6 +100,7 @@ void TiltIsFound(const Board& board, size_t photos)
 	EXPECT_LT(std::abs(lens.tilt_direction.value - DIRECTION), 4 * lens.tilt_direction.sigma);
 	EXPECT_LT(lens.lens_tilt.sigma, 0.03);
 	EXPECT_LT(std::abs(c.solution.w_mm.value - W), 4 * c.solution.w_mm.sigma + 0.005 * W / 100);
+	// 80 lens points paint a disc whose edge is grainy: 0.05 mm too small here, 0.016 +- 0.010 with 400 points.
 	EXPECT_LT(std::abs(c.solution.aperture_diameter.value - D), 0.1);
 	// Two coordinates of 0.05 px at the most.
 	EXPECT_LT(c.geometry.rms, 0.07);
