@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <ostream>
 #include <set>
 #include <tuple>
 
@@ -98,6 +99,9 @@ struct Case
 	double ratio, incline, direction;
 	bool asymmetric;
 };
+
+/// The name of the test.
+void PrintTo(const Case& c, std::ostream* out) { *out << c.ratio << "_at_" << c.incline << "_towards_" << c.direction << (c.asymmetric ? "_asymmetric" : ""); }
 
 class CirclesMeasured : public testing::TestWithParam<Case> {};
 
