@@ -7,22 +7,54 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace tiltcal
 {
 
+TargetKind ParseTargetKind(const std::string& text, const std::string& option)
+{
+	for (const TargetKind kind : { TargetKind::CHECKERBOARD, TargetKind::CIRCLES, TargetKind::ASYMMETRIC_CIRCLES })
+		if (text == NameOf(kind))
+			return kind;
+	throw UsageError(fmt::format("{} {}: there is checkerboard, circles and asymmetric-circles", option, text));
+}
+
+std::string NameOf(TargetKind kind)
+{
+	return kind == TargetKind::CHECKERBOARD ? "checkerboard" : kind == TargetKind::CIRCLES ? "circles" : "asymmetric-circles";
+}
+
 Board ParseBoard(const std::string& text, double square_mm)
 {
+	return MakeBoard(TargetKind::CHECKERBOARD, text, square_mm, 0, "");
+}
+
+Board MakeBoard(TargetKind kind, const std::string& text, double square_mm, double circle_diameter_mm, const std::string& kind_option)
+{
 	Board board;
+	board.kind = kind;
+	const char* const what = board.IsCheckerboard() ? "squares" : "circles";
 	char rest = 0;
 	if (std::sscanf(text.c_str(), "%3dx%3d%c", &board.columns, &board.rows, &rest) != 2)
-		throw UsageError(fmt::format("--board {}: give columns x rows of squares, such as 12x9", text));
+		throw UsageError(fmt::format("--board {}: give columns x rows of {}, such as {}", text, what, board.IsCheckerboard() ? "12x9" : "4x11"));
 	if (board.columns < 4 || board.rows < 4)
-		throw UsageError(fmt::format("--board {}: at least 4x4 squares are needed", text));
-	if (!(square_mm > 0))
-		throw UsageError(fmt::format("--square {}: give the side of a square in mm, above 0", square_mm));
+		throw UsageError(fmt::format("--board {}: at least 4x4 {} are needed", text, what));
+	if (!(square_mm > 0) || !std::isfinite(square_mm))
+		throw UsageError(fmt::format("--square {}: give the {} in mm, above 0", square_mm, board.IsCheckerboard() ? "side of a square" : "spacing of the circles"));
 	board.square_mm = square_mm;
+	if (board.IsCheckerboard())
+	{
+		if (circle_diameter_mm != 0)
+			throw UsageError(fmt::format("--circle-diameter: a checkerboard has no circles; leave it out or give {} circles", kind_option));
+		return board;
+	}
+	const double neighbour = board.CirclePitch() * square_mm;
+	board.circle_diameter_mm = circle_diameter_mm == 0 ? 0.5 * neighbour : circle_diameter_mm;
+	if (!(board.circle_diameter_mm > 0 && board.circle_diameter_mm < neighbour))
+		throw UsageError(fmt::format("--circle-diameter {}: give mm above 0 and below {:.4g}, the distance of neighbouring centres",
+			circle_diameter_mm, neighbour));
 	return board;
 }
 
@@ -40,7 +72,15 @@ BlurRatios RatiosOf(const Photo& photo)
 std::string RatioText(const Photo& photo)
 {
 	const BlurRatios r = RatiosOf(photo);
-	return fmt::format("blur radius {:.2f} to {:.2f} of a square, median {:.2f}", r.least, r.most, r.median);
+	const bool circles = !photo.edges.empty() && photo.edges.front().arc >= 0;
+	return fmt::format("blur radius {:.2f} to {:.2f} of a {}, median {:.2f}", r.least, r.most, circles ? "circle's radius" : "square", r.median);
+}
+
+std::string CountText(const Photo& photo)
+{
+	if (!photo.edges.empty() && photo.edges.front().arc >= 0)
+		return fmt::format("{} {} circles, {} arcs", photo.corners.size(), photo.bright_circles ? "white" : "dark", photo.edges.size());
+	return fmt::format("{} corners, {} edges", photo.corners.size(), photo.edges.size());
 }
 
 }

@@ -33,8 +33,8 @@ void LogPhoto(const Photo& photo, size_t number, size_t total)
 		least = std::min(least, e.blur);
 		most = std::max(most, e.blur);
 	}
-	spdlog::info("[{}/{}] {}: {} corners, {} edges, blur {:.1f} to {:.1f} px; {}", number, total, photo.file,
-		photo.corners.size(), photo.edges.size(), least, most, RatioText(photo));
+	spdlog::info("[{}/{}] {}: {}, blur {:.1f} to {:.1f} px; {}", number, total, photo.file,
+		CountText(photo), least, most, RatioText(photo));
 	if (photo.edges_dropped > 0)
 		spdlog::warn("{}: {} of {} edges left out, too blurred or too noisy", photo.file, photo.edges_dropped,
 			photo.edges_dropped + int(photo.edges.size()));

@@ -25,8 +25,8 @@ namespace
 
 struct Options
 {
-	std::string board, transfer = "srgb", model = "auto", poses = "auto", refine = "edges", out;
-	double square = 0;
+	std::string board, target = "checkerboard", transfer = "srgb", model = "auto", poses = "auto", refine = "edges", out;
+	double square = 0, circle_diameter = 0;
 	std::optional<double> pitch;
 	std::vector<std::string> untilted, tilted, fix, prior;
 	DetectOptions detect;
@@ -116,7 +116,7 @@ Calibration CalibrateWithPriors(const Task& task, const std::string& model, Pose
 void Run(const Options& o)
 {
 	const auto start = std::chrono::steady_clock::now();
-	const Board board = ParseBoard(o.board, o.square);
+	const Board board = MakeBoard(ParseTargetKind(o.target, "--target"), o.board, o.square, o.circle_diameter, "--target");
 	const Transfer transfer = ParseTransfer(o.transfer);
 	CheckModel(o.model);
 	const Poses poses = ParsePoses(o.poses);
@@ -150,9 +150,12 @@ void Run(const Options& o)
 void AddCalibrate(CLI::App& app)
 {
 	auto o = std::make_shared<Options>();
-	CLI::App* c = app.add_subcommand("calibrate", "Photographs of a checkerboard in, camera blocks for tilt_lens out.");
-	c->add_option("--board", o->board, "Squares of the board, columns x rows, such as 12x9 (squares, not inner corners)")->required();
-	c->add_option("--square", o->square, "Side of a square, mm")->required();
+	CLI::App* c = app.add_subcommand("calibrate", "Photographs of a checkerboard or a grid of circles in, camera blocks for tilt_lens out.");
+	c->add_option("--board", o->board, "Squares of the board, columns x rows, such as 12x9 (squares, not inner corners); of the other targets circles")->required();
+	c->add_option("--target", o->target, "checkerboard, circles or asymmetric-circles, as tiltcal target --kind prints them")->capture_default_str();
+	c->add_option("--square", o->square, "Side of a square, or spacing of circles, mm; asymmetric: distance of rows, half that of the circles in a row")->required();
+	c->add_option("--circle-diameter", o->circle_diameter, "Diameter of a circle, mm; 0: half the distance of neighbouring centres. A little more or less does no "
+		"harm: it is measured in every photograph")->capture_default_str();
 	c->add_option("--pitch", o->pitch, "Distance of pixel centres on the sensor, mm; needed unless EXIF says it (FocalPlaneXResolution)");
 	c->add_option("--untilted", o->untilted, "Photographs with the lens untilted: names or quoted patterns")->required();
 	c->add_option("--tilted", o->tilted, "NAME='GLOB': photographs of one tilted state; may be repeated");
@@ -174,6 +177,8 @@ void AddCalibrate(CLI::App& app)
 		"      --tilted plus5='target/plus5-*.png' --tilted minus5='target/minus5-*.png' --out calibration\n\n"
 		"Photograph the board inclined by 20 to 45 degrees in several directions, with parts before and\n"
 		"behind the plane of focus. Lengths are mm, angles degrees, picture measures pixels.\n"
+		"Circles, dark on white or white on dark, must be larger than their blur: its radius may be 0.6 of theirs. Circles look the same turned\n"
+		"by 180 degrees, as many columns as rows by 90: the picture's top left circle is the first. Asymmetric grids need an odd number of rows.\n"
 		"Exit codes: 0 done, 1 refused or not converged, 2 wrong usage, 3 unreadable or unwritable file.");
 	c->callback([o] { Run(*o); });
 }

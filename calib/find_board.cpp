@@ -33,12 +33,6 @@ Points Find(const cv::Mat& picture, cv::Size size, const cv::Mat& small_from_ful
 	return points;
 }
 
-/// Scaling of pixel centres at integers: about (-0.5, -0.5).
-cv::Mat ScaleMap(double scale)
-{
-	return (cv::Mat_<double>(2, 3) << scale, 0, 0.5 * (scale - 1), 0, scale, 0.5 * (scale - 1));
-}
-
 Points FindAtScale(const cv::Mat& picture, cv::Size size, double scale, int flags, cv::Mat* meta = nullptr)
 {
 	cv::Mat small;
@@ -60,27 +54,6 @@ std::vector<double> Scales(const cv::Mat& picture)
 	if (longer <= LARGE)
 		scales.push_back(1);
 	return scales;
-}
-
-/// Local mean taken away, local contrast made equal, then saturated: signs of the pattern, in 8 bit. `window` px.
-cv::Mat Flatten(const cv::Mat& picture, double window)
-{
-	cv::Mat value, mean, square;
-	picture.convertTo(value, CV_32F);
-	cv::GaussianBlur(value, mean, cv::Size(), window);
-	value -= mean;
-	cv::GaussianBlur(value.mul(value), square, cv::Size(), window);
-	double most = 0;
-	cv::minMaxLoc(square, nullptr, &most);
-	cv::Mat flat(picture.size(), CV_8UC1);
-	const float least = static_cast<float>(1e-3 * std::sqrt(most) + 1e-6);
-	for (int y = 0; y < flat.rows; ++y)
-		for (int x = 0; x < flat.cols; ++x)
-		{
-			const float z = value.at<float>(y, x) / (std::sqrt(square.at<float>(y, x)) + least);
-			flat.at<uchar>(y, x) = cv::saturate_cast<uchar>(127.5f + 127.5f * std::tanh(3 * z));
-		}
-	return flat;
 }
 
 /// Reduced by `scale` and stretched twofold in direction `degrees`; `map` receives small_from_full.
@@ -167,6 +140,31 @@ cv::Size LargestGrid(const cv::Mat& picture)
 		"(stop down, or move the board nearer to the plane of focus)");
 }
 
+}
+
+cv::Mat ScaleMap(double scale)
+{
+	return (cv::Mat_<double>(2, 3) << scale, 0, 0.5 * (scale - 1), 0, scale, 0.5 * (scale - 1));
+}
+
+cv::Mat Flatten(const cv::Mat& picture, double window)
+{
+	cv::Mat value, mean, square;
+	picture.convertTo(value, CV_32F);
+	cv::GaussianBlur(value, mean, cv::Size(), window);
+	value -= mean;
+	cv::GaussianBlur(value.mul(value), square, cv::Size(), window);
+	double most = 0;
+	cv::minMaxLoc(square, nullptr, &most);
+	cv::Mat flat(picture.size(), CV_8UC1);
+	const float least = static_cast<float>(1e-3 * std::sqrt(most) + 1e-6);
+	for (int y = 0; y < flat.rows; ++y)
+		for (int x = 0; x < flat.cols; ++x)
+		{
+			const float z = value.at<float>(y, x) / (std::sqrt(square.at<float>(y, x)) + least);
+			flat.at<uchar>(y, x) = cv::saturate_cast<uchar>(127.5f + 127.5f * std::tanh(3 * z));
+		}
+	return flat;
 }
 
 cv::Mat ForDetector(const cv::Mat& grey)

@@ -18,6 +18,13 @@ namespace tiltcal
 /// 8-bit sRGB-coded copy of `grey` (linear, CV_32FC1), its brightest percent near white: what OpenCV's detectors are made for.
 cv::Mat ForDetector(const cv::Mat& grey);
 
+/// `picture` (8 bit) with the local mean taken away, the local contrast made equal, then saturated: signs of the pattern, in 8 bit.
+/// `window` px.
+cv::Mat Flatten(const cv::Mat& picture, double window);
+
+/// Small from full (2x3) for a picture reduced by `scale`: pixel centres are at integers, so about (-0.5, -0.5).
+cv::Mat ScaleMap(double scale);
+
 /// Inner corners of a checkerboard in `grey`, row by row in some numbering, to a few tenths of a pixel or, strongly
 /// blurred, to a twentieth of the blur radius. findChessboardCornersSB on reduced pictures; where that fails on pictures made
 /// locally equal in mean and contrast and then saturated: a blurred checkerboard is nearly the product of two sines, and

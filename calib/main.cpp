@@ -32,7 +32,7 @@ int main(int argc, char** argv)
 	FLAGS_minloglevel = google::GLOG_FATAL;
 	cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
 
-	CLI::App app("tiltcal: calibrates a tilted lens from photographs of a checkerboard, for tilt_lens in POV-Ray.", "tiltcal");
+	CLI::App app("tiltcal: calibrates a tilted lens from photographs of a checkerboard or a grid of circles, for tilt_lens in POV-Ray.", "tiltcal");
 	app.set_version_flag("--version", "tiltcal " TILTCAL_VERSION);
 	app.require_subcommand(1);
 	app.footer("Exit codes: 0 done, 1 refused or not converged, 2 wrong usage, 3 unreadable or unwritable file.\n"

@@ -4,6 +4,7 @@
 
 #include "error.h"
 #include "image_io.h"
+#include "measure_circles.h"
 #include "measure_edge.h"
 #include "spread_order.h"
 
@@ -123,10 +124,7 @@ bool Intersect(const std::vector<Edge>& edges, Corner& corner)
 	bool columns = false, rows = false;
 	for (const Edge& e : edges)
 	{
-		const bool touches = (e.column == corner.column && e.row == corner.row)
-			|| (e.along_columns && e.column + 1 == corner.column && e.row == corner.row)
-			|| (!e.along_columns && e.column == corner.column && e.row + 1 == corner.row);
-		if (!touches)
+		if (!e.Touches(corner.column, corner.row))
 			continue;
 		const Vec2 nominal(e.nx, e.ny), along(e.ny, -e.nx);
 		const double side = along.dot(Vec2(corner.x - e.x, corner.y - e.y));
@@ -279,8 +277,13 @@ Photo MeasurePhoto(const std::string& file, const Board& board, const Transfer& 
 	photo.file = file;
 	photo.width = linear.cols;
 	photo.height = linear.rows;
-	photo.corners = DetectCorners(linear, board, options, file);
-	MeasureEdges(linear, board, photo, choice);
+	if (board.IsCheckerboard())
+	{
+		photo.corners = DetectCorners(linear, board, options, file);
+		MeasureEdges(linear, board, photo, choice);
+	}
+	else
+		MeasureCircles(linear, board, options, photo, choice);
 	if (grey)
 		*grey = linear;
 	return photo;

@@ -22,7 +22,7 @@ struct EdgeChoice
 	double phase = 0;   ///< of SpreadOrder
 };
 
-/// Reads a photograph, finds its corners and measures the blur of its edges.
+/// Reads a photograph, finds its corners and measures the blur of its edges, or circles (measure_circles.h).
 /// Throws FileError, Refused. `grey`, when given, receives the linear picture.
 Photo MeasurePhoto(const std::string& file, const Board& board, const Transfer& transfer,
 	const DetectOptions& options, const EdgeChoice& choice = {}, cv::Mat* grey = nullptr);

@@ -99,7 +99,7 @@ cv::Mat Legend(const Calibration& c, size_t s, size_t p, int width)
 		MainGeometry(c).photo_rms[s][p], std::sqrt(sum / double(std::max<size_t>(photo.edges.size(), 1))), RatioText(photo)),
 		cv::Point(14, 26), cv::FONT_HERSHEY_SIMPLEX, 0.6, cv::Scalar(255, 255, 255), 1, cv::LINE_AA);
 	int x = 14;
-	x = Entry(strip, x, 48, CORNER, 1, false, "detected corner");
+	x = Entry(strip, x, 48, CORNER, 1, false, c.task.board.IsCheckerboard() ? "detected corner" : "detected centre");
 	x = Entry(strip, x, 48, ERROR, 2, false, "reprojection error x 20");
 	Entry(strip, x, 48, PREDICTED, 1, true, "predicted blur disc");
 	x = 14;
@@ -138,10 +138,13 @@ cv::Mat DrawMeasured(const cv::Mat& grey, const Photo& photo)
 	for (const Corner& k : photo.corners)
 		Cross(canvas, k);
 	cv::Mat strip(64, canvas.cols, CV_8UC3, cv::Scalar(40, 40, 40));
-	cv::putText(strip, fmt::format("{} | {} edges left out | {}", BaseName(photo.file), photo.edges_dropped, RatioText(photo)),
-		cv::Point(14, 24), cv::FONT_HERSHEY_SIMPLEX, 0.5, cv::Scalar(255, 255, 255), 1, cv::LINE_AA);
-	int x = Entry(strip, 14, 46, CORNER, 1, false, "corner");
-	x = Entry(strip, x, 46, EDGE, 1, false, "edge");
+	const bool circles = !photo.edges.empty() && photo.edges.front().arc >= 0;
+	const std::string text = fmt::format("{} | {} {} left out | {}", BaseName(photo.file), photo.edges_dropped, circles ? "arcs" : "edges", RatioText(photo));
+	int base = 0;
+	const double fitting = (strip.cols - 28) / double(cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, 1, 1, &base).width);
+	cv::putText(strip, text, cv::Point(14, 24), cv::FONT_HERSHEY_SIMPLEX, std::min(0.5, fitting), cv::Scalar(255, 255, 255), 1, cv::LINE_AA);
+	int x = Entry(strip, 14, 46, CORNER, 1, false, circles ? "centre" : "corner");
+	x = Entry(strip, x, 46, EDGE, 1, false, circles ? "outline" : "edge");
 	Entry(strip, x, 46, DifferenceColour(0), 1, true, "blur disc");
 	cv::vconcat(canvas, strip, whole);
 	return whole;

@@ -37,11 +37,8 @@ std::vector<Feature> FeaturesOf(const Task& task, const State& state)
 			double sum = 0;
 			int n = 0;
 			for (const Edge& e : state.photos[p].edges)
-			{
-				const int end_column = e.column + e.along_columns, end_row = e.row + !e.along_columns;
-				if ((e.column == c.column && e.row == c.row) || (end_column == c.column && end_row == c.row))
+				if (e.Touches(c.column, c.row))
 					sum += e.blur, ++n;
-			}
 			if (n)
 				features.push_back({ p, task.board.X(c.column), task.board.Y(c.row),
 					c.x - 0.5 * (task.width - 1), 0.5 * (task.height - 1) - c.y, sum / n });

@@ -33,15 +33,15 @@ long HilbertIndex(int size, int x, int y)
 	return index;
 }
 
-/// Edges of one direction along the Hilbert curve.
-std::vector<EdgePlace> AlongCurve(const Board& board, bool along_columns)
+/// Places of a grid along the Hilbert curve through at least `span` x `span` cells.
+std::vector<EdgePlace> AlongCurve(int span, int columns, int rows, bool along_columns)
 {
 	int size = 1;
-	while (size < std::max(board.InnerColumns(), board.InnerRows()))
+	while (size < span)
 		size *= 2;
 	std::vector<EdgePlace> places;
-	for (int j = 0; j < board.InnerRows() - !along_columns; ++j)
-		for (int i = 0; i < board.InnerColumns() - along_columns; ++i)
+	for (int j = 0; j < rows; ++j)
+		for (int i = 0; i < columns; ++i)
 			places.push_back({ i, j, along_columns });
 	std::sort(places.begin(), places.end(), [size](const EdgePlace& a, const EdgePlace& b)
 		{ return HilbertIndex(size, a.column, a.row) < HilbertIndex(size, b.column, b.row); });
@@ -71,7 +71,8 @@ std::vector<EdgePlace> GoldenOrder(const std::vector<EdgePlace>& places, double 
 
 std::vector<EdgePlace> SpreadOrder(const Board& board, double phase)
 {
-	const std::vector<EdgePlace> across = GoldenOrder(AlongCurve(board, true), phase), down = GoldenOrder(AlongCurve(board, false), phase);
+	const int i = board.InnerColumns(), j = board.InnerRows(), span = std::max(i, j);
+	const std::vector<EdgePlace> across = GoldenOrder(AlongCurve(span, i - 1, j, true), phase), down = GoldenOrder(AlongCurve(span, i, j - 1, false), phase);
 	std::vector<EdgePlace> order;
 	for (size_t k = 0; k < std::max(across.size(), down.size()); ++k)
 	{
@@ -80,6 +81,17 @@ std::vector<EdgePlace> SpreadOrder(const Board& board, double phase)
 		if (k < down.size())
 			order.push_back(down[k]);
 	}
+	return order;
+}
+
+std::vector<ArcPlace> SpreadArcs(const Board& board, int arcs, double phase)
+{
+	const std::vector<EdgePlace> circles = GoldenOrder(AlongCurve(std::max(board.columns, board.rows), board.columns, board.rows, true), phase);
+	std::vector<ArcPlace> order;
+	for (int pass = 0; pass < arcs; ++pass)
+		for (size_t k = 0; k < circles.size(); ++k)
+			// 3 has no factor in common with 4 and 8.
+			order.push_back({ circles[k].column, circles[k].row, int((3 * (k + size_t(pass))) % size_t(arcs)) });
 	return order;
 }
 

@@ -22,6 +22,15 @@ struct EdgePlace
 /// other phases give other subsets of the same evenness, 0 is what tiltcal uses.
 std::vector<EdgePlace> SpreadOrder(const Board& board, double phase);
 
+/// A part of the outline of circle `index` of a row.
+struct ArcPlace
+{
+	int index, row, arc;
+};
+
+/// The same for circles of `arcs` arcs (4 or 8): all circles once, each with another arc than those before it, then all again.
+std::vector<ArcPlace> SpreadArcs(const Board& board, int arcs, double phase);
+
 }
 
 #endif

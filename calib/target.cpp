@@ -2,7 +2,6 @@
 
 #include "target.h"
 
-#include "board.h"
 #include "error.h"
 #include "files.h"
 
@@ -124,38 +123,10 @@ Size ChoosePaper(const Target& t, const std::string& text, const Size& needed, s
 
 }
 
-TargetKind ParseTargetKind(const std::string& text)
-{
-	for (const TargetKind kind : { TargetKind::CHECKERBOARD, TargetKind::CIRCLES, TargetKind::ASYMMETRIC_CIRCLES })
-		if (text == NameOf(kind))
-			return kind;
-	throw UsageError(fmt::format("--kind {}: there is checkerboard, circles and asymmetric-circles", text));
-}
-
-std::string NameOf(TargetKind kind)
-{
-	return kind == TargetKind::CHECKERBOARD ? "checkerboard" : kind == TargetKind::CIRCLES ? "circles" : "asymmetric-circles";
-}
-
 Target MakeTarget(TargetKind kind, const std::string& board, double square_mm, double circle_diameter_mm)
 {
-	if (!std::isfinite(square_mm))
-		throw UsageError(fmt::format("--square {}: give a length in mm", square_mm));
-	const Board parsed = ParseBoard(board, square_mm);
-	Target t{ kind, parsed.columns, parsed.rows, square_mm, circle_diameter_mm };
-	if (t.IsCheckerboard())
-	{
-		if (circle_diameter_mm != 0)
-			throw UsageError("--circle-diameter: a checkerboard has no circles; leave it out or give --kind circles");
-		return t;
-	}
-	const double neighbour = kind == TargetKind::CIRCLES ? square_mm : std::sqrt(2.0) * square_mm;
-	if (circle_diameter_mm == 0)
-		t.circle_diameter = 0.5 * neighbour;
-	if (!(t.circle_diameter > 0 && t.circle_diameter < neighbour))
-		throw UsageError(fmt::format("--circle-diameter {}: give mm above 0 and below {:.4g}, the distance of neighbouring centres",
-			circle_diameter_mm, neighbour));
-	return t;
+	const Board checked = MakeBoard(kind, board, square_mm, circle_diameter_mm, "--kind");
+	return { kind, checked.columns, checked.rows, checked.square_mm, checked.circle_diameter_mm };
 }
 
 TargetPage LayOut(const Target& target, const std::string& paper, double margin_mm)

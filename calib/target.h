@@ -6,18 +6,13 @@
 #ifndef TILTCAL_TARGET_H
 #define TILTCAL_TARGET_H
 
+#include "board.h"
+
 #include <string>
 #include <vector>
 
 namespace tiltcal
 {
-
-enum class TargetKind
-{
-	CHECKERBOARD,
-	CIRCLES,              ///< rows and columns at right angles
-	ASYMMETRIC_CIRCLES    ///< every other row moved by half a column, as in OpenCV
-};
 
 struct Target
 {
@@ -52,12 +47,7 @@ struct TargetPage
 
 const double SCALE_BAR_MM = 100;
 
-/// "checkerboard", "circles", "asymmetric-circles". Throws UsageError.
-TargetKind ParseTargetKind(const std::string& text);
-std::string NameOf(TargetKind kind);
-
-/// Checks the numbers; a circle_diameter of 0 becomes half the distance of neighbouring
-/// centres. Throws UsageError.
+/// MakeBoard's numbers. Throws UsageError.
 Target MakeTarget(TargetKind kind, const std::string& board, double square_mm, double circle_diameter_mm);
 
 /// `paper`: a name (a4, letter, ..; turned as the target needs it), WxH in mm (taken as it

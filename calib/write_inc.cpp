@@ -112,7 +112,7 @@ std::string CameraInc(const Calibration& c, size_t s)
 	std::string out = fmt::format(
 		"// camera-{}.inc, written by tiltcal {} (model {}). World unit: 1 mm.\n"
 		"// Render at {} x {} pixels or any size of this aspect ratio.\n"
-		"// World of the photographs' poses: origin at the board's first inner corner, x along\n"
+		"// World of the photographs' poses: origin at the board's first inner corner (or circle's centre), x along\n"
 		"// the columns, y up the rows, z into the board.\n"
 		"// Reprojection: {:.3f} px RMS {}.\n\n{}",
 		name, TILTCAL_VERSION, c.solution.model, c.task.width, c.task.height, RenderGeometry(c).rms,

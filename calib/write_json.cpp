@@ -135,6 +135,14 @@ Json SolutionJson(const Calibration& c, const Solution& solution, const Geometry
 	return json;
 }
 
+/// What --board, --target, --square and --circle-diameter said.
+Json BoardJson(const Board& board)
+{
+	if (board.IsCheckerboard())
+		return { { "kind", NameOf(board.kind) }, { "squares", { board.columns, board.rows } }, { "square_mm", board.square_mm } };
+	return { { "kind", NameOf(board.kind) }, { "circles", { board.columns, board.rows } }, { "spacing_mm", board.square_mm }, { "circle_diameter_mm", board.circle_diameter_mm } };
+}
+
 }
 
 std::string CalibrationJson(const Calibration& c)
@@ -143,8 +151,8 @@ std::string CalibrationJson(const Calibration& c)
 	json["image_size_px"] = { c.task.width, c.task.height };
 	json["pixel_pitch_mm"] = c.task.pitch_mm;
 	json["exif"] = ExifJson(c.task);
-	json["board"] = { { "squares", { c.task.board.columns, c.task.board.rows } }, { "square_mm", c.task.board.square_mm } };
-	json["frames"] = "camera: x right, y up, z forward; board: origin at the first inner corner, x along the columns, y up the rows, z into it; "
+	json["board"] = BoardJson(c.task.board);
+	json["frames"] = "camera: x right, y up, z forward; board: origin at the first inner corner or circle's centre, x along the columns, y up the rows, z into it; "
 		"X_camera = rotation X_board + translation_mm; pixel centres at integers, (0, 0) top left";
 	if (c.paper.failure.empty())
 		json["comparison"]["paper"] = SolutionJson(c, c.paper, c.paper_geometry);

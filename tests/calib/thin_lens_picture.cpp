@@ -81,6 +81,24 @@ Pattern Checkerboard(int columns, int rows, double s)
 	};
 }
 
+Pattern Circles(int columns, int rows, double s, double diameter, bool asymmetric)
+{
+	return [=](double x, double y)
+	{
+		const double row = std::floor(y / s + 0.5);
+		// A circle reaches into the rows next to its own when it is larger than a spacing; none does in these pictures.
+		if (row >= 0 && row < rows)
+		{
+			const double step = asymmetric ? 2 * s : s, first = asymmetric && static_cast<int>(row) % 2 == 1 ? s : 0;
+			const double i = std::floor((x - first) / step + 0.5), dx = x - first - i * step, dy = y - row * s;
+			if (i >= 0 && i < columns && dx * dx + dy * dy < 0.25 * diameter * diameter)
+				return 0.05f;
+		}
+		const double margin = 0.5 * (diameter + s), width = asymmetric ? (2 * columns - 1) * s : (columns - 1) * s;
+		return x >= -margin && y >= -margin && x <= width + margin && y <= (rows - 1) * s + margin ? 0.8f : 0.3f;
+	};
+}
+
 cv::Mat TakePicture(const Scene& scene, const Pattern& pattern)
 {
 	std::vector<cv::Matx33d> homographies;

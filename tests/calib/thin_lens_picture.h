@@ -39,6 +39,10 @@ using Pattern = std::function<float(double x, double y)>;
 /// Squares of `square_mm`, the first inner corner at the origin, black at the top left, one square of white around.
 Pattern Checkerboard(int columns, int rows, double square_mm);
 
+/// Dark circles on white, the first centre at the origin, white half a spacing beyond the circles. Asymmetric: circles two spacings apart in a row, every
+/// second row moved by one. Diameters up to a spacing.
+Pattern Circles(int columns, int rows, double spacing_mm, double diameter_mm, bool asymmetric);
+
 /// CV_32FC1, linear light.
 cv::Mat TakePicture(const Scene& scene, const Pattern& pattern);
 

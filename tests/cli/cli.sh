@@ -107,6 +107,12 @@ detect_csv)
 	[ "$(head -n 1 corners-edges.csv)" = "file,x_px,y_px,nx,ny,blur_px,sigma_px" ] || fail "header of corners-edges.csv"
 	[ "$(wc -l <corners.csv)" = 89 ] || fail "88 corners expected"
 	[ "$(wc -l <corners-edges.csv)" = 158 ] || fail "157 edges expected" ;;
+detect_circles_usage)
+	refuses 2 "asymmetric-circles" detect --target rings --board 12x9 "$target/untilted-1.jpg" --csv x.csv
+	refuses 2 "no circles" detect --board 12x9 --circle-diameter 9 "$target/untilted-1.jpg" --csv x.csv
+	refuses 2 "circle-diameter" detect --target circles --board 8x6 --square 25 --circle-diameter 25 "$target/untilted-1.jpg" --csv x.csv
+	refuses 2 "odd number" detect --target asymmetric-circles --board 4x8 "$target/untilted-1.jpg" --csv x.csv
+	refuses 1 "no grid of 8x6 circles" detect --target circles --board 8x6 "$target/untilted-1.jpg" --csv x.csv ;;
 detect_unwritable) : >blocked; refuses 3 blocked detect --board 12x9 "$target/untilted-1.jpg" --csv blocked/x.csv ;;
 profile_same)
 	expect 0 profile "$photos/scene/plus5.jpg" "$photos/scene/plus5.jpg" --line 0,660,1799,660 --out result

@@ -141,7 +141,9 @@ TEST(Kernels, WeighOneInSumAndNothingAtTheCentre)
 	{
 		Plane p(41, 41);
 		p.At(20, 20) = 1.0f;
-		const Plane response = k.Apply(p), squared = k.ApplySquared(p);
+		Plane rows(p.width, p.height), response(p.width, p.height), squared(p.width, p.height);
+		k.Apply(p, rows, response);
+		k.ApplySquared(p, rows, squared);
 		double sum = 0.0, squares = 0.0, squared_sum = 0.0;
 		for(size_t i = 0; i < response.v.size(); i++)
 		{

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// From pictures of grids of circles to the tilt of the lens.
+
+#include "calibrate.h"
+#include "measure_circles.h"
+#include "overlay.h"
+#include "thin_lens_picture.h"
+#include "write_json.h"
+
+#include <gtest/gtest.h>
+#include <Eigen/Geometry>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace
+{
+
+using namespace tiltcal;
+using namespace synthetic;
+
+const double PITCH = 0.06, W = 800 * PITCH, F = 45, D = 18;   // mm
+const double TILT = 5, DIRECTION = 35;                        // degrees
+
+/// Unit normal of a lens tilted by `tilt` towards DIRECTION; y is down.
+Eigen::Vector3d LensNormal(double tilt)
+{
+	const double t = tilt * M_PI / 180, phi = DIRECTION * M_PI / 180;
+	return { -std::sin(t) * std::sin(phi), std::sin(t) * std::cos(phi), std::cos(t) };
+}
+
+/// The plane of focus by Gauss's equation along the lens's axis, for three points of the sensor.
+void FocusOn(Scene& scene)
+{
+	Eigen::Vector3d seen[3];
+	int k = 0;
+	for (const auto& [x, y] : { std::pair{ 0.0, 0.0 }, std::pair{ 10.0, 0.0 }, std::pair{ 0.0, 10.0 } })
+	{
+		const Eigen::Vector3d X(x, y, -W);
+		const double image = -X.dot(scene.lens_normal);
+		seen[k++] = -X * (1 / (1 / F - 1 / image) / image);
+	}
+	scene.focus_point = seen[0];
+	scene.focus_normal = (seen[1] - seen[0]).cross(seen[2] - seen[0]).normalized();
+}
+
+State Photograph(const std::string& name, double tilt, const Board& board, size_t photos)
+{
+	State state;
+	state.name = name;
+	state.tilted = tilt != 0;
+	const Eigen::Vector2d middle = 0.5 * board.square_mm * Eigen::Vector2d(board.CircleColumn(board.columns - 1, board.rows - 1), board.rows - 1);
+	// Incline and its direction; before and behind the plane of focus at 720 mm.
+	const struct { double incline, direction, distance; } poses[] = { { 30, 0, 640 }, { 35, 95, 690 }, { 30, 200, 740 }, { 35, 290, 700 } };
+	for (size_t k = 0; k < photos; ++k)
+	{
+		const auto& pose = poses[k];
+		Scene scene;
+		scene.aperture = D;
+		scene.lens_normal = LensNormal(tilt);
+		FocusOn(scene);
+		Aim(scene, middle.x(), middle.y(), pose.distance, pose.incline, pose.direction, 4);
+		scene.noise = 0.006;
+		scene.seed = unsigned(state.photos.size()) + 1 + (tilt != 0 ? 10 : 0);
+		scene.lens_points = 80;
+		const cv::Mat picture = TakePicture(scene, Circles(board.columns, board.rows, board.square_mm, board.circle_diameter_mm, board.kind == TargetKind::ASYMMETRIC_CIRCLES));
+		Photo photo;
+		photo.file = name;
+		photo.width = scene.width;
+		photo.height = scene.height;
+		MeasureCircles(picture, board, {}, photo);
+		std::printf("%s: %s, %d left out, %s\n", name.c_str(), CountText(photo).c_str(), photo.edges_dropped, RatioText(photo).c_str());
+		state.photos.push_back(photo);
+	}
+	return state;
+}
+
+void TiltIsFound(const Board& board, size_t photos)
+{
+	Task task;
+	task.board = board;
+	task.pitch_mm = PITCH;
+	task.width = 640;
+	task.height = 480;
+	task.states = { Photograph("untilted", 0, board, photos), Photograph("plus5", TILT, board, photos) };
+	const Calibration c = Calibrate(task, "plane", Poses::AUTO);
+	const StateLens& lens = c.solution.states[1];
+	const double phi = lens.tilt_direction.value * M_PI / 180, tilt = lens.lens_tilt.value, true_phi = DIRECTION * M_PI / 180;
+	// As a vector: direction and size in one.
+	const double error = std::hypot(tilt * std::sin(phi) - TILT * std::sin(true_phi), tilt * std::cos(phi) - TILT * std::cos(true_phi));
+	std::printf("tilt %.3f +- %.3f towards %.2f +- %.2f, error %.4f; w %.3f +- %.3f, d %.3f +- %.3f, reprojection %.3f px, blur %.3f px, paper %s %.3f\n", tilt, lens.lens_tilt.sigma,
+		lens.tilt_direction.value, lens.tilt_direction.sigma, error, c.solution.w_mm.value, c.solution.w_mm.sigma, c.solution.aperture_diameter.value,
+		c.solution.aperture_diameter.sigma, c.geometry.rms, c.solution.rms_blur, c.paper.failure.c_str(), c.paper.failure.empty() ? c.paper.states[1].lens_tilt.value : 0);
+	EXPECT_LT(error, 0.05);   // the task's bound
+	// Both components within 4 sigma; and the sigma is not so large that this says nothing.
+	EXPECT_LT(std::abs(tilt - TILT), 4 * lens.lens_tilt.sigma);
+	EXPECT_LT(std::abs(lens.tilt_direction.value - DIRECTION), 4 * lens.tilt_direction.sigma);
+	EXPECT_LT(lens.lens_tilt.sigma, 0.03);
+	EXPECT_LT(std::abs(c.solution.w_mm.value - W), 4 * c.solution.w_mm.sigma + 0.005 * W / 100);
+	// 80 lens points paint a disc whose edge is grainy: 0.05 mm too small here, 0.016 +- 0.010 with 400 points.
+	EXPECT_LT(std::abs(c.solution.aperture_diameter.value - D), 0.1);
+	// Two coordinates of 0.05 px at the most.
+	EXPECT_LT(c.geometry.rms, 0.07);
+	EXPECT_EQ(c.paper.failure, "");
+	const nlohmann::json json = nlohmann::json::parse(CalibrationJson(c));
+	EXPECT_EQ(json["board"]["kind"], NameOf(board.kind));
+	EXPECT_EQ(json["board"]["circles"][0], board.columns);
+	EXPECT_EQ(json["board"]["circle_diameter_mm"], board.circle_diameter_mm);
+	const cv::Mat overlay = DrawOverlay(cv::Mat(480, 640, CV_32FC1, cv::Scalar(0.5)), c, 1, 0);
+	EXPECT_EQ(overlay.cols, 640);
+}
+
+TEST(CalibrateCircles, TiltFromASymmetricGrid) { TiltIsFound(MakeBoard(TargetKind::CIRCLES, "9x7", 27, 16, ""), 4); }
+TEST(CalibrateCircles, TiltFromAnAsymmetricGrid) { TiltIsFound(MakeBoard(TargetKind::ASYMMETRIC_CIRCLES, "6x9", 22, 16, ""), 3); }
+
+}
