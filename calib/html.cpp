@@ -98,7 +98,7 @@ std::string Number(double value, int digits)
 
 std::string WithSigma(const Estimate& e, const std::string& unit, int digits)
 {
-	const std::string tail = unit.empty() ? "" : " " + unit;
+	const std::string tail = unit.empty() || unit == "°" ? unit : " " + unit;
 	if (!(e.sigma > 0) || !std::isfinite(e.sigma) || !std::isfinite(e.value))
 		return Number(e.value, digits) + (std::isfinite(e.value) ? tail : "");
 	const int shown = std::clamp(1 - static_cast<int>(std::floor(std::log10(e.sigma))), 0, 9);

@@ -34,7 +34,7 @@ p { max-width: 860px } code { background: #f2f2f2; padding: 1px 4px; overflow-wr
 .wide { overflow-x: auto; margin: 10px 0 16px }
 table { border-collapse: collapse; font-size: 14px } th, td { padding: 4px 10px; border-bottom: 1px solid #ddd; text-align: right; vertical-align: top }
 td { font-variant-numeric: tabular-nums } th { font-weight: 600; background: #f6f6f6 } th:first-child { text-align: left } tr:first-child th { vertical-align: bottom }
-.common td:last-child, .run td { text-align: left }
+.common td:last-child, .common th:last-child, .run td { text-align: left } .files th:first-child { min-width: 150px; overflow-wrap: anywhere }
 .correlation td { text-align: center; min-width: 44px; border: 1px solid #fff } .correlation td.none { background: #f4f4f4 }
 .verdict { border-left: 8px solid #888; background: #f2f2f2; padding: 10px 16px; margin: 14px 0; font-size: 16px } .verdict ul { margin: 6px 0 0; padding-left: 20px; font-size: 14px }
 .verdict.good { border-color: #2e7d32; background: #e8f5e9 } .verdict.fair { border-color: #f9a825; background: #fff8e1 } .verdict.poor { border-color: #c62828; background: #ffebee }
@@ -141,8 +141,9 @@ std::string Residuals(const Calibration& c)
 	for (size_t s = 0; s < c.task.states.size(); ++s)
 	{
 		out += "<h3>" + Escape(c.task.states[s].name) + "</h3>\n" + PhotoKey(c.task.states[s]);
-		out += "<div class=\"pair\">\n<div><h4>Corners: reprojected − measured</h4>" + CornerMap(c, s) + "</div>\n<div><h4>Blur: measured − predicted</h4>" + BlurMap(c, s) + "</div>\n";
-		out += "<div><h4>Blur width of every edge</h4>" + BlurPlot(c, s) + "</div>\n</div>\n";
+		out += "<div class=\"pair\">\n<div><h4>Blur width of every edge</h4>" + BlurPlot(c, s) + "</div>\n<div><h4>Corners: reprojected − measured</h4>" + CornerMap(c, s) + "</div>\n";
+		out += "<div><h4>Blur of edges across the radius (tangential focus): measured − predicted</h4>" + BlurMap(c, s, true) + "</div>\n"
+			"<div><h4>Blur of edges along the radius (sagittal focus): measured − predicted</h4>" + BlurMap(c, s, false) + "</div>\n</div>\n";
 	}
 	return out;
 }

@@ -182,9 +182,10 @@ std::string CornerMap(const Calibration& c, size_t s)
 		for (const auto& [u, v, du, dv] : arrows[p])
 		{
 			const double dx = frame.scale * factor * du, dy = frame.scale * factor * dv;
-			// Shaft, then the head as two strokes back from the tip.
-			path += fmt::format("M{:.1f} {:.1f}l{:.1f} {:.1f}l{:.1f} {:.1f}M{:.1f} {:.1f}l{:.1f} {:.1f}", frame.X(u), frame.Y(v), dx, dy, -0.25 * dx + 0.12 * dy, -0.25 * dy - 0.12 * dx,
-				frame.X(u) + dx, frame.Y(v) + dy, -0.25 * dx - 0.12 * dy, -0.25 * dy + 0.12 * dx);
+			// Shaft, then the head as two strokes back from the tip, at most 7 units long.
+			const double head = std::min(0.25, 7 / std::max(std::hypot(dx, dy), 1e-9)), hx = head * dx, hy = head * dy;
+			path += fmt::format("M{:.1f} {:.1f}l{:.1f} {:.1f}l{:.1f} {:.1f}M{:.1f} {:.1f}l{:.1f} {:.1f}", frame.X(u), frame.Y(v), dx, dy, 0.5 * hy - hx, -0.5 * hx - hy,
+				frame.X(u) + dx, frame.Y(v) + dy, -0.5 * hy - hx, 0.5 * hx - hy);
 		}
 		if (!path.empty())
 			out += fmt::format("<path d=\"{}\" stroke=\"{}\" stroke-width=\"1.1\" fill=\"none\"/>\n", path, html::PhotoColour(p));
@@ -196,7 +197,7 @@ std::string CornerMap(const Calibration& c, size_t s)
 	return out + "</svg>\n";
 }
 
-std::string BlurMap(const Calibration& c, size_t s)
+std::string BlurMap(const Calibration& c, size_t s, bool across_radius)
 {
 	const std::vector<Photo>& photos = c.task.states[s].photos;
 	const Frame frame(c.task);
@@ -213,8 +214,11 @@ std::string BlurMap(const Calibration& c, size_t s)
 			if (!std::isfinite(difference))
 				continue;
 			const Point normal = EdgeNormal(e);
-			strokes.push_back({ e.x, e.y, normal[0], normal[1], difference });
+			const Point& centre = MainGeometry(c).principal_point[s];
+			const double x = e.x - centre[0], y = e.y - centre[1];
 			sizes.push_back(std::abs(difference));
+			if ((2 * std::pow(x * normal[0] + y * normal[1], 2) > x * x + y * y) == across_radius)
+				strokes.push_back({ e.x, e.y, normal[0], normal[1], difference });
 		}
 	const double range = RoundAbove(Quantile(sizes, 0.9));
 	const int steps = 10;
@@ -235,7 +239,7 @@ std::string BlurMap(const Calibration& c, size_t s)
 	out += frame.PrincipalPoint(MainGeometry(c).principal_point[s]);
 	for (int step = -steps; step <= steps; ++step)
 		out += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"9\" height=\"12\" fill=\"{}\"/>\n", 70 + 9.0 * (step + steps), frame.height + 9, SignedColour(double(step) / steps));
-	out += Text(64, frame.height + 19, fmt::format("−{:g} px", range), "end") + Text(266, frame.height + 19, fmt::format("+{:g} px, measured − predicted; strokes along the edges", range));
+	out += Text(64, frame.height + 19, fmt::format("−{:g} px", range), "end") + Text(266, frame.height + 19, fmt::format("+{:g} px and beyond; strokes lie along the edges", range));
 	return out + "</svg>\n";
 }
 

@@ -19,7 +19,9 @@ std::string BlurPlot(const Calibration& calibration, size_t state);
 std::string CornerMap(const Calibration& calibration, size_t state);
 
 /// Measured minus predicted blur of every edge where it is in the picture, a stroke along the edge: blue less, red more.
-std::string BlurMap(const Calibration& calibration, size_t state);
+/// Only edges that run across the radius from the principal point (those that see the tangential focus), or only the others.
+/// The colours mean the same in both.
+std::string BlurMap(const Calibration& calibration, size_t state, bool across_radius);
 
 }
 

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tiltcal
 {
@@ -16,8 +17,8 @@ namespace tiltcal
 namespace
 {
 
-const double WIDTH = 1160, HEIGHT = 620;
-const PageBox SIDE{ 30, 50, 520, 530 }, OBLIQUE{ 600, 50, 530, 310 }, CAMERA{ 680, 430, 330, 150 };
+const double WIDTH = 1160, HEIGHT = 640;
+const PageBox SIDE{ 30, 50, 520, 530 }, OBLIQUE{ 600, 50, 530, 310 }, CAMERA{ 660, 460, 260, 150 };
 const char* const FOCUS_LINE = "stroke=\"#1565c0\" stroke-width=\"2.5\" fill=\"none\"";
 const char* const FRUSTUM = "stroke=\"#999\" stroke-width=\"1\" fill=\"#999\" fill-opacity=\"0.05\"";
 const char* const AXIS = "stroke=\"#555\" stroke-width=\"1\" stroke-dasharray=\"8 3 2 3\"";
@@ -119,7 +120,7 @@ private:
 		const PageView view(AHEAD, up, extent, SIDE);
 		const PagePoint origin = view(ORIGIN);
 		std::string out = fmt::format("<g class=\"side\" data-px-per-mm=\"{:.6f}\" data-axis-x=\"{:.3f}\" data-axis-y=\"{:.3f}\">\n", view.Scale(), origin.x, origin.y);
-		out += svg::Text({ SIDE.x, 24 }, "Side view, along the hinge line", "start", "class=\"title\"");
+		out += svg::Text({ SIDE.x, 24 }, scene.has_hinge ? "Side view, along the hinge line" : "Side view, from the right", "start", "class=\"title\"");
 		out += Frustum(view) + svg::Line(view, -1.3 * scene.w * AHEAD, scene.far * AHEAD, AXIS);
 		for (size_t p = 0; p < scene.boards.size(); ++p)
 			out += Outline(view, p, 0.10);
@@ -198,7 +199,7 @@ private:
 	std::string DistanceOfFocus(const PageView& view) const
 	{
 		const double U = lens.focus_distance.value;
-		const std::string tilt = scene.has_hinge ? FocusName() + ", " + html::Number(std::abs(lens.focal_plane_tilt.value), 1) + "° to the sensor" : FocusName() + ", parallel to the sensor";
+		const std::string tilt = scene.has_hinge ? "plane of focus, " + html::Number(std::abs(lens.focal_plane_tilt.value), 1) + "° to the sensor" : std::string("plane of focus, parallel to the sensor");
 		const bool below = hinge_is_drawn && Dot(scene.hinge, scene.tilt_up) < 0;
 		std::string out;
 		if (std::isfinite(U) && U > 0 && U < scene.far)
@@ -215,10 +216,31 @@ private:
 		return out;
 	}
 
+	/// From over the camera's shoulder; from ahead of it where that would show the plane of focus edge-on; else from higher up.
+	ViewAxes AxesThatShowThePlane() const
+	{
+		const double degree = 3.14159265358979323846 / 180, enough = 0.35;
+		const Vec3<double> m = tilt_lens::Normalized(scene.q);
+		ViewAxes best{};
+		double most = -1;
+		for (const auto& [azimuth, elevation] : { std::pair{ 38, 24 }, std::pair{ -38, 24 }, std::pair{ 30, 50 }, std::pair{ -30, 50 } })
+		{
+			const ViewAxes axes = Oblique(azimuth * degree, elevation * degree);
+			const double facing = std::abs(Dot(m, Cross(axes.up, axes.right)));
+			if (facing > most)
+			{
+				most = facing;
+				best = axes;
+			}
+			if (facing > enough)
+				break;
+		}
+		return best;
+	}
+
 	std::string FromAbove() const
 	{
-		const double degree = 3.14159265358979323846 / 180;
-		const ViewAxes axes = Oblique(38 * degree, 24 * degree);
+		const ViewAxes axes = AxesThatShowThePlane();
 		const PageView view(axes.right, axes.up, Extent(), OBLIQUE);
 		std::string out = "<g class=\"oblique\">\n" + svg::Text({ OBLIQUE.x, 24 }, "From above and beside", "start", "class=\"title\"");
 		out += Frustum(view) + svg::Line(view, -1.3 * scene.w * AHEAD, scene.far * AHEAD, AXIS);
@@ -228,7 +250,7 @@ private:
 		out += BoardNumbers(view) + Disc(view);
 		const PagePoint eye = view(ORIGIN);
 		out += svg::Text({ eye.x - 4, eye.y + 34 }, "camera", "middle") + ScaleBar(view, OBLIQUE.x, OBLIQUE.y + OBLIQUE.height + 16);
-		out += svg::Text({ OBLIQUE.x + 240, OBLIQUE.y + OBLIQUE.height + 24 }, "Bold: where a board meets the " + FocusName() + ", its sharpest line");
+		out += svg::Text({ OBLIQUE.x + OBLIQUE.width, OBLIQUE.y + OBLIQUE.height + 24 }, "bold: where a board meets the " + FocusName(), "end");
 		return out + "</g>\n";
 	}
 

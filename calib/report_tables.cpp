@@ -133,7 +133,7 @@ std::string VerdictBox(const Calibration& c)
 
 std::string NumbersTables(const Calibration& c)
 {
-	return html::Table(Turned(StateRows(c))) + html::Table(CommonRows(c));
+	return html::Table(Turned(StateRows(c))) + "<div class=\"common\">" + html::Table(CommonRows(c)) + "</div>\n";
 }
 
 std::string TellersTable(const Calibration& c)
@@ -184,7 +184,7 @@ std::string ModelsTable(const Calibration& c)
 std::string PhotographsTable(const Calibration& c)
 {
 	const Geometry& g = MainGeometry(c);
-	Rows rows{ { "photograph", "state", "reprojection, px", "blur misfit, px", "edges", "left out", "blur radius / square: least", "median", "most", "tilt changes without it", "its blur foretold to, px" } };
+	Rows rows{ { "photograph", "state", "corners, px", "blur misfit, px", "edges", "left out", "blur radius / square: least", "median", "most", "tilt change without it", "its blur then, px" } };
 	for (size_t s = 0; s < c.task.states.size(); ++s)
 		for (size_t p = 0; p < c.task.states[s].photos.size(); ++p)
 		{
@@ -196,7 +196,7 @@ std::string PhotographsTable(const Calibration& c)
 				Number(RmsBlur(c, s, p), 3), std::to_string(photo.edges.size()), std::to_string(photo.edges_dropped), Number(ratios.least, 3), Number(ratios.median, 3), Number(ratios.most, 3),
 				known && s > 0 ? Number(left->tilt_change, 3) + "°" : "–", known ? Number(left->rms_blur, 3) : "–" });
 		}
-	return html::Table(rows);
+	return "<div class=\"files\">" + html::Table(rows) + "</div>\n";
 }
 
 std::string CorrelationTable(const Calibration& c)
@@ -252,7 +252,7 @@ std::string PriorsTable(const Calibration& c)
 		case Quantity::FOCUS_DISTANCE: found = s.focus_distance; break;
 		case Quantity::APERTURE_DIAMETER: found = s.aperture_diameter; break;
 		}
-		rows.push_back({ prior.Name(), WithSigma({ prior.value, prior.sigma }, ""), WithSigma(found, "") });
+		rows.push_back({ prior.Name(), prior.sigma > 2e-6 * std::abs(prior.value) ? WithSigma({ prior.value, prior.sigma }, "") : fmt::format("{:g}, fixed", prior.value), WithSigma(found, "") });
 	}
 	return html::Table(rows);
 }
