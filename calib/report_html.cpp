@@ -42,7 +42,7 @@ svg text { font: 13px "Helvetica Neue", Arial, sans-serif; paint-order: stroke; 
 svg text.title { font-size: 15px; font-weight: 600 } svg text.strong { font-weight: 600 } svg text.number { font-size: 15px; font-weight: 700 }
 .sketch, .map { fill: #222 } .sketch { width: 100%; height: auto } .map { width: 100%; height: auto }
 .pair { display: grid; grid-template-columns: 1fr 1fr; gap: 20px } .pair h4 { margin: 6px 0 4px; font-size: 14px }
-.photos { display: grid; grid-template-columns: repeat(auto-fill, minmax(360px, 1fr)); gap: 14px } figure { margin: 0 } figcaption { font-size: 13px; overflow-wrap: anywhere }
+.photos { display: grid; grid-template-columns: repeat(auto-fill, minmax(480px, 1fr)); gap: 14px } figure { margin: 0 } figcaption { font-size: 13px; overflow-wrap: anywhere }
 .photos img { width: 100%; display: block; cursor: zoom-in } .photos input { position: absolute; opacity: 0 }
 .photos input:focus-visible + img { outline: 3px solid #1565c0 }
 figure:has(input:checked) { grid-column: 1 / -1 } figure:has(input:checked) img { cursor: zoom-out }
@@ -183,7 +183,8 @@ std::string Fine(const Calibration& c)
 	const std::string& name = c.task.states.back().name;
 	out += fmt::format("<h3>In POV-Ray</h3>\n<p>Each state has a file <code>camera-STATE.inc</code>; the world's unit is 1 mm. With the patched POV-Ray:</p>\n<pre>#include &quot;camera-{0}.inc&quot;\n"
 		"TiltCal_{0}(&lt;0, 0, -1000&gt;, &lt;0, 0, 0&gt;, y)   // location, look_at, sky\n// or the camera of a photograph, the board's first inner corner at the origin:\nTiltCal_{0}_Pose(1)</pre>\n"
-		"<p><code>#declare TiltCal_Distortion = 0;</code> before the include takes the camera that was fitted without distortion. All numbers, with their sigmas, are in <code>calibration.json</code>.</p>\n", Escape(name));
+		"<p>{1}All numbers, with their sigmas, are in <code>calibration.json</code>.</p>\n", Escape(name),
+		MainGeometry(c).distortion_terms ? "<code>#declare TiltCal_Distortion = 0;</code> before the include takes the camera that was fitted without distortion. " : "");
 	return out;
 }
 

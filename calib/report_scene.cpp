@@ -8,8 +8,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace tiltcal
 {
@@ -17,8 +19,7 @@ namespace tiltcal
 namespace
 {
 
-const double WIDTH = 1160, HEIGHT = 640;
-const PageBox SIDE{ 30, 50, 520, 530 }, OBLIQUE{ 600, 50, 530, 310 }, CAMERA{ 660, 460, 260, 150 };
+const double WIDTH = 1160;
 const char* const FOCUS_LINE = "stroke=\"#1565c0\" stroke-width=\"2.5\" fill=\"none\"";
 const char* const FRUSTUM = "stroke=\"#999\" stroke-width=\"1\" fill=\"#999\" fill-opacity=\"0.05\"";
 const char* const AXIS = "stroke=\"#555\" stroke-width=\"1\" stroke-dasharray=\"8 3 2 3\"";
@@ -35,12 +36,18 @@ public:
 	Sketch(const Calibration& calibration, size_t s) : c(calibration), state(s), lens(calibration.solution.states[s]), scene(MakeScene(calibration, s)),
 		hinge_is_drawn(scene.has_hinge && Length(scene.hinge) < 1.6 * scene.far)
 	{
+		// With the hinge there is more to show.
+		const double tall = hinge_is_drawn ? 420 : 310;
+		side = { 30, 50, 520, tall + 220 };
+		oblique = { 600, 50, 530, tall };
+		camera = { 660, tall + 150, 260, 150 };
+		height = tall + 330;
 	}
 
 	std::string Svg() const
 	{
 		return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"sketch\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n",
-			WIDTH, HEIGHT, html::Escape("Camera, boards and surface of focus of " + c.task.states[state].name)) + Side() + FromAbove() + CameraAlone() + "</svg>\n";
+			WIDTH, height, html::Escape("Camera, boards and surface of focus of " + c.task.states[state].name)) + Side() + FromAbove() + CameraAlone() + "</svg>\n";
 	}
 
 private:
@@ -117,10 +124,10 @@ private:
 			extent.push_back(1.03 * scene.hinge);
 		if (meets)
 			extent.push_back(ScheimpflugHeight() * up - scene.w * AHEAD);
-		const PageView view(AHEAD, up, extent, SIDE);
+		const PageView view(AHEAD, up, extent, side);
 		const PagePoint origin = view(ORIGIN);
 		std::string out = fmt::format("<g class=\"side\" data-px-per-mm=\"{:.6f}\" data-axis-x=\"{:.3f}\" data-axis-y=\"{:.3f}\">\n", view.Scale(), origin.x, origin.y);
-		out += svg::Text({ SIDE.x, 24 }, scene.has_hinge ? "Side view, along the hinge line" : "Side view, from the right", "start", "class=\"title\"");
+		out += svg::Text({ side.x, 24 }, scene.has_hinge ? "Side view, along the hinge line" : "Side view, from the right", "start", "class=\"title\"");
 		out += Frustum(view) + svg::Line(view, -1.3 * scene.w * AHEAD, scene.far * AHEAD, AXIS);
 		for (size_t p = 0; p < scene.boards.size(); ++p)
 			out += Outline(view, p, 0.10);
@@ -133,7 +140,7 @@ private:
 		out += LensAndSensor(view);
 		if (hinge_is_drawn)
 			out += HingeFromTheSide(view);
-		out += DistanceOfFocus(view) + ScaleBar(view, SIDE.x, HEIGHT - 20);
+		out += DistanceOfFocus(view) + ScaleBar(view, side.x, height - 20);
 		return out + "</g>\n";
 	}
 
@@ -141,7 +148,6 @@ private:
 	std::string PlaneFromTheSide(const PageView& view) const
 	{
 		std::string out;
-		const double across = Dot(scene.q, scene.tilt_up);
 		// Heights at which the plane leaves the drawing: the hinge, and the far end of the frustum's middle.
 		double from = 0, to = 0;
 		for (const Vec3<double>& P : scene.focus_section)
@@ -151,10 +157,8 @@ private:
 		}
 		if (hinge_is_drawn)
 			(Dot(scene.hinge, scene.tilt_up) < 0 ? from : to) = Dot(scene.hinge, scene.tilt_up);
-		// q.P = 1 at P = h tilt_up + z e_z.
-		const auto at = [&](double h) { return h * scene.tilt_up + ((1 - across * h) / scene.q.z) * AHEAD; };
 		if (std::abs(scene.q.z) * scene.far > 0.1 && to > from)
-			out += svg::Line(view, at(from), at(to), std::string("class=\"plane-trace\" ") + THIN_BLUE);
+			out += svg::Line(view, OnPlane(from), OnPlane(to), std::string("class=\"plane-trace\" ") + THIN_BLUE);
 		for (const Polygon& part : scene.focus)
 			out += svg::Path(view, part, true, "fill=\"#1565c0\" fill-opacity=\"0.12\"");
 		if (scene.focus_section.size() > 1)
@@ -209,10 +213,10 @@ private:
 				+ svg::Text({ origin.x + 0.45 * (at.x - origin.x), at.y - 7 }, "U = " + html::Number(U, 1) + " mm", "middle", "class=\"strong\"");
 		}
 		// In the corner that the plane leaves free.
-		const double y = !hinge_is_drawn || below ? SIDE.y + 2 : SIDE.y + SIDE.height - 8;
-		out += svg::Text({ SIDE.x, y }, tilt, "start", "class=\"strong\" fill=\"#1565c0\"");
+		const double y = !hinge_is_drawn || below ? side.y + 2 : side.y + side.height - 8;
+		out += svg::Text({ side.x, y }, tilt, "start", "class=\"strong\" fill=\"#1565c0\"");
 		if (scene.has_hinge && !hinge_is_drawn)
-			out += svg::Text({ SIDE.x, y + 18 }, HingeText() + " (outside)");
+			out += svg::Text({ side.x, y + 18 }, HingeText() + " (outside)");
 		return out;
 	}
 
@@ -241,17 +245,53 @@ private:
 	std::string FromAbove() const
 	{
 		const ViewAxes axes = AxesThatShowThePlane();
-		const PageView view(axes.right, axes.up, Extent(), OBLIQUE);
-		std::string out = "<g class=\"oblique\">\n" + svg::Text({ OBLIQUE.x, 24 }, "From above and beside", "start", "class=\"title\"");
+		Polygon extent = Extent();
+		if (hinge_is_drawn)
+			for (const auto& line : PlaneFromHinge())
+				extent.insert(extent.end(), line.begin(), line.end());
+		const PageView view(axes.right, axes.up, extent, oblique);
+		std::string out = "<g class=\"oblique\">\n" + svg::Text({ oblique.x, 24 }, view.Nearness(AHEAD) > 0 ? "From above, beside and ahead of the camera" : "From above, beside and behind the camera", "start", "class=\"title\"");
 		out += Frustum(view) + svg::Line(view, -1.3 * scene.w * AHEAD, scene.far * AHEAD, AXIS);
+		if (hinge_is_drawn)
+			out += HingeFromAbove(view);
 		out += Sorted(view);
 		for (size_t p = 0; p < scene.boards.size(); ++p)
 			out += Sharp(view, p);
 		out += BoardNumbers(view) + Disc(view);
 		const PagePoint eye = view(ORIGIN);
-		out += svg::Text({ eye.x - 4, eye.y + 34 }, "camera", "middle") + ScaleBar(view, OBLIQUE.x, OBLIQUE.y + OBLIQUE.height + 16);
-		out += svg::Text({ OBLIQUE.x + OBLIQUE.width, OBLIQUE.y + OBLIQUE.height + 24 }, "bold: where a board meets the " + FocusName(), "end");
+		out += svg::Text({ eye.x - 4, eye.y + 34 }, "camera", "middle") + ScaleBar(view, oblique.x, oblique.y + oblique.height + 16);
+		out += svg::Text({ oblique.x + oblique.width, oblique.y + oblique.height + 24 }, "bold: where a board meets the " + FocusName(), "end");
 		return out + "</g>\n";
+	}
+
+	/// Point of the plane of focus (of the bowl: the plane that touches it) at the height h along tilt_up, beside the hinge's middle.
+	Vec3<double> OnPlane(double h) const { return h * scene.tilt_up + ((1 - Dot(scene.q, scene.tilt_up) * h) / scene.q.z) * AHEAD; }
+
+	/// The hinge line, and from its ends two lines in the plane of focus to where the picture begins to show it.
+	std::vector<std::array<Vec3<double>, 2>> PlaneFromHinge() const
+	{
+		const Vec3<double> along{ scene.tilt_up.y, -scene.tilt_up.x, 0 };
+		const double reach = 0.5 * Length(scene.corner_rays[0] - scene.corner_rays[2]) * scene.far / 2;
+		const Vec3<double> a = scene.hinge - reach * along, b = scene.hinge + reach * along;
+		std::vector<std::array<Vec3<double>, 2>> lines{ { a, b } };
+		if (scene.focus_section.empty() || std::abs(scene.q.z) * scene.far < 0.1)
+			return lines;
+		const bool below = Dot(scene.hinge, scene.tilt_up) < 0;
+		const Vec3<double>& nearest = below ? scene.focus_section.front() : scene.focus_section.back();
+		const Vec3<double> begin = OnPlane(Dot(nearest, scene.tilt_up));
+		lines.push_back({ a, begin - reach * along });
+		lines.push_back({ b, begin + reach * along });
+		return lines;
+	}
+
+	std::string HingeFromAbove(const PageView& view) const
+	{
+		std::string out;
+		const auto lines = PlaneFromHinge();
+		for (size_t k = 0; k < lines.size(); ++k)
+			out += svg::Line(view, lines[k][0], lines[k][1], k == 0 ? "stroke=\"#1565c0\" stroke-width=\"2.5\"" : THIN_BLUE);
+		const Vec3<double>& end = view(lines[0][0]).x > view(lines[0][1]).x ? lines[0][0] : lines[0][1];
+		return out + svg::Text({ view(end).x + 8, view(end).y + 5 }, "hinge line", "start", "class=\"strong\"");
 	}
 
 	/// Boards and the surface of focus, the farthest from the viewer first.
@@ -297,10 +337,10 @@ private:
 		Polygon extent{ 0.5 * scene.w * AHEAD, -1.1 * scene.w * AHEAD };
 		for (const Vec3<double>& corner : scene.corner_rays)
 			extent.push_back(-scene.w * corner);
-		const PageView view(AHEAD, up, extent, CAMERA);
+		const PageView view(AHEAD, up, extent, camera);
 		const Vec3<double> in_lens = tilt_lens::Normalized(Dot(n, AHEAD) * up - Dot(n, up) * AHEAD);
-		const double reach = 0.5 * CAMERA.height / view.Scale();
-		std::string out = "<g class=\"camera\">\n" + svg::Text({ OBLIQUE.x, CAMERA.y - 18 }, "The camera alone, from the same side", "start", "class=\"title\"");
+		const double reach = 0.5 * camera.height / view.Scale();
+		std::string out = "<g class=\"camera\">\n" + svg::Text({ oblique.x, camera.y - 18 }, "The camera alone, from the same side", "start", "class=\"title\"");
 		out += svg::Line(view, -1.1 * scene.w * AHEAD, 0.5 * scene.w * AHEAD, AXIS);
 		out += svg::Line(view, -reach * up, reach * up, SENSOR_PLANE) + svg::Line(view, -reach * in_lens, reach * in_lens, LENS_PLANE);
 		if (scene.has_hinge)
@@ -321,6 +361,8 @@ private:
 	const StateLens& lens;
 	const SceneParts scene;
 	const bool hinge_is_drawn;
+	PageBox side, oblique, camera;   ///< the three views
+	double height = 0;
 };
 
 }
