@@ -112,10 +112,10 @@ std::string Tilt(const Calibration& c)
 {
 	std::string out = "<h2>Tilt, models, photographs</h2>\n";
 	const std::string tellers = TellersTable(c), models = ModelsTable(c);
-	out += tellers.empty() ? "<p>No tilted state was photographed.</p>\n" : tellers;
+	out += c.task.states.size() < 2 ? "<p>No tilted state was photographed.</p>\n" : tellers;
 	if (!models.empty())
-		out += "<h3>Models</h3>\n<p>Each model was fitted without one photograph after the other and asked for that photograph's blur.</p>\n" + models;
-	return out + "<h3>Photographs</h3>\n" + PhotographsTable(c);
+		out += "<h3>Models</h3>\n<p>Each model was fitted without one photograph after the other and asked for that photograph's blur. The difference of an edge counts up to a bound, so that one bad edge does not decide.</p>\n" + models;
+	return out + "<h3>Photographs</h3>\n" + PhotographsTable(c) + "<p><small>Blur misfit counts every edge in full. The last two columns are of fits without the photograph; there the difference of an edge counts up to a bound only, so that the last column may be the smaller one.</small></p>\n";
 }
 
 std::string Sketches(const Calibration& c)

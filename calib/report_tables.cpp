@@ -104,7 +104,7 @@ Rows CommonRows(const Calibration& c)
 	for (const size_t k : used)
 		rows.push_back({ std::string("distortion ") + names[k], WithSigma({ g.distortion[k], g.distortion_sigma[k] }, "", 5), "Brown–Conrady, about the lens axis, in units of w" });
 	if (used.empty())
-		rows.push_back({ "distortion", "none", "further terms did not lower the misfit" });
+		rows.push_back({ "distortion", "none", s.model == "paper" ? "the paper's model has none" : "k1 would not lower the misfit enough to be believed" });
 	rows.push_back({ "reprojection", Number(g.rms, 3) + " px", "RMS" + (used.empty() ? std::string() : "; " + Number(c.pinhole.rms, 3) + " px without distortion") });
 	rows.push_back({ "blur misfit", Number(s.rms_blur, 3) + " px", "RMS of measured − predicted" });
 	return rows;
@@ -138,7 +138,8 @@ std::string NumbersTables(const Calibration& c)
 
 std::string TellersTable(const Calibration& c)
 {
-	if (c.solution.states.size() < 2)
+	// The paper's model has one teller only.
+	if (c.solution.states.size() < 2 || c.blur_alone.empty())
 		return "";
 	Rows rows{ { "lens tilt told by" } };
 	for (size_t s = 1; s < c.solution.states.size(); ++s)

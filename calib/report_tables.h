@@ -18,7 +18,7 @@ std::string VerdictBox(const Calibration& calibration);
 /// The numbers of every state, then those that all states share.
 std::string NumbersTables(const Calibration& calibration);
 
-/// The tilts by blur alone, by geometry alone and jointly. Empty without tilted states.
+/// The tilts by blur alone, by geometry alone and jointly. Empty without tilted states and for the paper's model.
 std::string TellersTable(const Calibration& calibration);
 
 /// The models and what they foretell of photographs left out. Empty when none were compared.
