@@ -224,7 +224,8 @@ private:
 	ViewAxes AxesThatShowThePlane() const
 	{
 		const double degree = 3.14159265358979323846 / 180, enough = 0.35;
-		const Vec3<double> m = tilt_lens::Normalized(scene.q);
+		// A lens focused at infinity has no plane to show.
+		const Vec3<double> m = tilt_lens::MaxAbs(scene.q) > 0 ? tilt_lens::Normalized(scene.q) : AHEAD;
 		ViewAxes best{};
 		double most = -1;
 		for (const auto& [azimuth, elevation] : { std::pair{ 38, 24 }, std::pair{ -38, 24 }, std::pair{ 30, 50 }, std::pair{ -30, 50 } })

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 namespace
@@ -170,6 +171,34 @@ TEST_P(SketchOf, PlaneThroughHinge)
 }
 
 INSTANTIATE_TEST_SUITE_P(Tilts, SketchOf, testing::Values(Case{ -5, 0 }, Case{ 5, 30 }, Case{ -4, 80 }), [](const auto& tested) { return "case" + std::to_string(tested.index); });
+
+/// DESIGN.md section 3: planes at infinity, parallel to the axis, behind the lens, nearly so.
+TEST(ReportHtml, SketchOfEveryPlane)
+{
+	Calibration c = CalibrationOf(Tilted(5, 0), "plane", 2);
+	const double infinity = std::numeric_limits<double>::infinity();
+	const std::pair<Vec3<double>, double> planes[] = { { { 0, 0, 0 }, infinity }, { { 0, -1 / 500.0, 0 }, infinity }, { { 1 / 300.0, 0, 1e-12 }, 1e12 }, { { 0, -0.001, -0.001 }, -1000 },
+		{ { 0, 0, 1e-30 }, 1e30 }, { { 0.0001, 0, 1 / 5.0 }, 5 }, { { 1e-8, 1e-8, 1 / 600.0 }, 600 } };
+	for (const auto& [q, U] : planes)
+	{
+		SCOPED_TRACE(testing::Message() << q.x << " " << q.y << " " << q.z);
+		c.solution.states[1].q = q;
+		c.solution.states[1].focus_distance.value = U;
+		const std::string sketch = SceneSvg(c, 1);
+		for (const char* const word : { "nan", "inf\"", "inf " })
+			EXPECT_EQ(sketch.find(word), std::string::npos) << word;
+		const Page page = ReadPage("<!DOCTYPE html><html>" + sketch + "</html>");
+		EXPECT_EQ(page.complaint, "");
+		// The drawing is there, at a scale at which something is seen: the boards reach 800 mm, the panel has 520 units.
+		ASSERT_EQ(page.Find("g", "side").size(), 1u);
+		EXPECT_GT(Of(page.Find("g", "side")[0], "data-px-per-mm"), 0.1);
+		// The oblique view is not collapsed: the first thing in it is a side of the frustum, most of the panel long.
+		double x1, y1, x2, y2;
+		const size_t oblique = sketch.find("class=\"oblique\"");
+		ASSERT_EQ(std::sscanf(sketch.c_str() + sketch.find("<path d=", oblique), "<path d=\"M%lf %lfL%lf %lf", &x1, &y1, &x2, &y2), 4);
+		EXPECT_GT(std::hypot(x2 - x1, y2 - y1), 100);
+	}
+}
 
 TEST(Html, EscapesWhatMarkupWouldTakeForItsOwn)
 {
