@@ -139,7 +139,7 @@ void Run(const Options& o)
 	const Calibration c = CalibrateWithPriors(task, o.model, poses, refinement);
 	for (const std::string& words : CompareWithExif(c))
 		spdlog::warn("{}", words);
-	WriteEverything(c, transfer, o.out);
+	WriteEverything(c, transfer, o.out, o.refine);
 	fmt::print("{}", SummaryTable(c));
 	fmt::print("written to {}\n", o.out);
 	spdlog::info("done in {:.1f} s", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
@@ -172,7 +172,7 @@ void AddCalibrate(CLI::App& app)
 	c->add_option("--edges-per-photo", o->edges.most, "Measure only N edges of every photograph, spread evenly over the board and both directions: "
 		"faster, less accurate. 0: all")->capture_default_str();
 	c->add_flag("--any-orientation", o->detect.any_orientation, "Accept a board that stands upside down (a mirrored picture looks the same)");
-	c->add_option("--out", o->out, "Folder for calibration.json, camera-<state>.inc, overlays and report; created if missing")->required();
+	c->add_option("--out", o->out, "Folder for calibration.json, camera-<state>.inc, overlays, report.txt and report.html (all on one page); created if missing")->required();
 	c->footer("Example:\n  tiltcal calibrate --board 12x9 --square 25 --pitch 0.02 --untilted 'target/untilted-*.png' \\\n"
 		"      --tilted plus5='target/plus5-*.png' --tilted minus5='target/minus5-*.png' --out calibration\n\n"
 		"Photograph the board inclined by 20 to 45 degrees in several directions, with parts before and\n"

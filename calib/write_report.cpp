@@ -7,6 +7,7 @@
 #include "gnuplot.h"
 #include "image_io.h"
 #include "overlay.h"
+#include "report_html.h"
 #include "verdict.h"
 #include "write_csv.h"
 #include "write_inc.h"
@@ -179,8 +180,9 @@ std::string SummaryTable(const Calibration& c)
 	return out;
 }
 
-void WriteEverything(const Calibration& c, const Transfer& transfer, const std::string& folder)
+void WriteEverything(const Calibration& c, const Transfer& transfer, const std::string& folder, const std::string& refinement)
 {
+	ReportPictures pictures(c.task);
 	for (size_t s = 0; s < c.task.states.size(); ++s)
 	{
 		spdlog::info("state {}: drawing overlays and plot", c.task.states[s].name);
@@ -188,13 +190,17 @@ void WriteEverything(const Calibration& c, const Transfer& transfer, const std::
 		{
 			const std::string& file = c.task.states[s].photos[p].file;
 			const cv::Mat grey = Luminance(ReadLinear(file, transfer));
-			WritePng(Join(folder, fmt::format("overlay-{}-{}.png", c.task.states[s].name, p + 1)), DrawOverlay(grey, c, s, p));
+			const cv::Mat overlay = DrawOverlay(grey, c, s, p);
+			WritePng(Join(folder, fmt::format("overlay-{}-{}.png", c.task.states[s].name, p + 1)), overlay);
+			pictures.Add(overlay);
 		}
 		PlotBlur(c, s, folder);
 		WriteText(Join(folder, "camera-" + c.task.states[s].name + ".inc"), CameraInc(c, s));
 	}
 	WriteText(Join(folder, "report.txt"), SummaryTable(c));
 	WriteText(Join(folder, "calibration.json"), CalibrationJson(c));
+	spdlog::info("writing report.html");
+	WriteText(Join(folder, "report.html"), ReportHtml(c, NotesOfThisRun(refinement), pictures));
 }
 
 }

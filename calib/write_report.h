@@ -14,9 +14,9 @@ namespace tiltcal
 /// The summary that `tiltcal calibrate` prints; also report.txt.
 std::string SummaryTable(const Calibration& calibration);
 
-/// Everything into `folder`: calibration.json, camera-<state>.inc, report.txt,
-/// overlay-<photo>.png, blur-<state>.png (gnuplot) with its .csv. Throws FileError.
-void WriteEverything(const Calibration& calibration, const Transfer& transfer, const std::string& folder);
+/// Everything into `folder`: calibration.json, camera-<state>.inc, report.txt, report.html,
+/// overlay-<photo>.png, blur-<state>.png (gnuplot) with its .csv. `refinement` is --refine's, for the page. Throws FileError.
+void WriteEverything(const Calibration& calibration, const Transfer& transfer, const std::string& folder, const std::string& refinement);
 
 }
 

@@ -3,10 +3,15 @@
 // What `tiltcal calibrate` wrote for the photographs in scenes/boxes/photos (the fixture
 // calib.photographs.calibrate ran it): the acceptance numbers of issue 2.
 
+#include "page_check.h"
+
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -146,9 +151,49 @@ TEST(Photographs, EveryEstimateHasItsSigma)
 			EXPECT_TRUE(state.contains(name)) << name;
 }
 
+/// As people write it: two digits of sigma.
+std::string WithSigma(double value, double sigma)
+{
+	const int digits = std::max(0, 1 - int(std::floor(std::log10(sigma))));
+	char text[100];
+	std::snprintf(text, sizeof text, "%s%.*f ± %.*f", value < 0 ? "−" : "", digits, std::abs(value), digits, sigma);
+	return text;
+}
+
+TEST(Photographs, PageHasAllPhotographsAndNumbers)
+{
+	std::stringstream text;
+	text << std::ifstream(FOLDER + "/report.html").rdbuf();
+	const Page page = ReadPage(text.str());
+	ASSERT_EQ(page.complaint, "");
+	EXPECT_EQ(OutsideResource(page, text.str()), "");
+	EXPECT_LT(text.str().size(), 15000000u);
+	const Json json = Calibration();
+	const auto has = [&](const Json& node, const std::string& name, const std::string& unit)
+	{
+		EXPECT_THAT(page.text, testing::HasSubstr(WithSigma(node.at(name + unit), node.at(name + "_sigma" + unit)))) << name;
+	};
+	for (const char* const name : { "image_distance", "focal_length", "focus_distance", "aperture_diameter" })
+		has(json, name, "_mm");
+	has(json, "psf_floor", "_px");
+	EXPECT_THAT(page.text, testing::HasSubstr(WithSigma(1000 * json.at("field_curvature_per_mm").get<double>(), 1000 * json.at("field_curvature_sigma_per_mm").get<double>())));
+	for (const Json& state : json.at("states"))
+	{
+		has(state, "focus_distance", "_mm");
+		has(state, "focal_length", "_mm");
+		for (const char* const name : { "lens_tilt", "tilt_direction", "focal_plane_tilt" })
+			if (state.at("name") != "untilted")
+				has(state, name, "_deg");
+		for (const Json& photo : state.at("photos"))
+			EXPECT_THAT(page.text, testing::HasSubstr(std::filesystem::path(photo.at("file").get<std::string>()).filename().string()));
+	}
+	for (const Json& remark : json.at("verdict").at("remarks"))
+		EXPECT_THAT(page.text, testing::HasSubstr(remark.at("text").get<std::string>()));
+}
+
 TEST(Photographs, FilesAreThere)
 {
-	for (const char* const name : { "camera-untilted.inc", "camera-plus5.inc", "camera-minus5.inc", "report.txt", "overlay-untilted-1.png", "overlay-minus5-6.png" })
+	for (const char* const name : { "camera-untilted.inc", "camera-plus5.inc", "camera-minus5.inc", "report.txt", "report.html", "overlay-untilted-1.png", "overlay-minus5-6.png" })
 		EXPECT_GT(std::filesystem::file_size(FOLDER + "/" + name), 500u) << name;
 	std::stringstream text;
 	text << std::ifstream(FOLDER + "/camera-plus5.inc").rdbuf();
