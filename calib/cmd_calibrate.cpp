@@ -136,6 +136,11 @@ void Run(const Options& o)
 
 	Task task = MeasureAll(states, board, pitch, transfer, o.detect, o.edges);
 	task.priors = priors;
+	for (const Prior& prior : PriorsFromExif(task, priors))
+	{
+		spdlog::info("EXIF says {} {:g}: taken as known to 10 %", prior.Name(), prior.value);
+		task.priors.push_back(prior);
+	}
 	const Calibration c = CalibrateWithPriors(task, o.model, poses, refinement);
 	for (const std::string& words : CompareWithExif(c))
 		spdlog::warn("{}", words);

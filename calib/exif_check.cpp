@@ -178,4 +178,19 @@ nlohmann::ordered_json ExifJson(const Task& task)
 	return json;
 }
 
+std::vector<Prior> PriorsFromExif(const Task& task, const std::vector<Prior>& given)
+{
+	const PhotographFacts facts = CommonFacts(task);
+	std::vector<Prior> priors;
+	const auto add = [&](Quantity quantity, const std::optional<double>& value)
+	{
+		const bool known = std::any_of(given.begin(), given.end(), [&](const Prior& p) { return p.quantity == quantity; });
+		if (value && *value > 0 && !known)
+			priors.push_back({ quantity, *value, 0.1 * *value });
+	};
+	add(Quantity::FOCAL_LENGTH, facts.focal_length_mm);
+	add(Quantity::F_NUMBER, facts.f_number);
+	return priors;
+}
+
 }

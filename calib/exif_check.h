@@ -35,6 +35,11 @@ std::vector<std::string> CompareWithExif(const Calibration& calibration);
 /// For calibration.json: the common facts; null when there are none.
 nlohmann::ordered_json ExifJson(const Task& task);
 
+/// What EXIF says of focal length and f-number as weak priors, 10 % each (engraved values are rounded, and lenses that
+/// focus by moving groups shorten their f at close range): they decide where photographs leave it open, and nothing else.
+/// None for a quantity that `given` has.
+std::vector<Prior> PriorsFromExif(const Task& task, const std::vector<Prior>& given);
+
 }
 
 #endif

@@ -200,6 +200,22 @@ TEST_F(PictureFormats, ExifIsReadFromEveryKindThatHasIt)
 	EXPECT_FALSE(ReadFacts(ReadPictureFile(At("exif.jpg")), 90).pitch_mm);
 }
 
+TEST(Exif, BecomesWeakPriorsWhereNothingWasGiven)
+{
+	Task task;
+	Photo photo;
+	photo.facts.focal_length_mm = 45;
+	photo.facts.f_number = 2.8;
+	task.states.push_back({ "untilted", false, { photo, photo } });
+	const std::vector<Prior> both = PriorsFromExif(task, {});
+	ASSERT_EQ(both.size(), 2u);
+	EXPECT_EQ(both[0].quantity, Quantity::FOCAL_LENGTH);
+	EXPECT_DOUBLE_EQ(both[0].sigma, 4.5);
+	const std::vector<Prior> one = PriorsFromExif(task, { ParseFix("focal_length=44.8") });
+	ASSERT_EQ(one.size(), 1u);
+	EXPECT_EQ(one[0].quantity, Quantity::F_NUMBER);
+}
+
 TEST(Exif, CommonFactsAreThoseThatAgree)
 {
 	PhotographFacts a, b;
