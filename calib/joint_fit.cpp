@@ -95,15 +95,86 @@ void SpreadPoses(Geometry& g)
 		}
 }
 
-/// Standard deviations of one block, 0 where it is held.
-void BlockSigmas(const ceres::Covariance& covariance, const ceres::Problem& problem, const double* block, double scale, int n, double* sigma)
+/// The blocks whose covariance PlanesByUnknowns takes, in its order.
+std::vector<const double*> LensBlocks(const Geometry& g, const Unknowns& x)
 {
-	std::vector<double> c(static_cast<size_t>(n * n), 0);
-	if (!problem.IsParameterBlockConstant(block))
-		covariance.GetCovarianceBlock(block, block, c.data());
-	for (int i = 0; i < n; ++i)
-		sigma[i] = std::sqrt(std::max(c[static_cast<size_t>(i * n + i)] * scale, 0.0));
+	std::vector<const double*> blocks{ &g.w_px, &x.d, &x.floor_squared, &x.power, x.curvature.data() };
+	for (const StateNumbers& state : x.state)
+		blocks.push_back(state.data());
+	return blocks;
 }
+
+/// Every other block that has a sigma, and where that goes.
+struct SigmaOf
+{
+	const double* block;
+	int size;
+	double* sigma;
+};
+
+std::vector<SigmaOf> GeometryBlocks(Geometry& g)
+{
+	std::vector<SigmaOf> blocks{ { g.distortion.data(), 5, g.distortion_sigma.data() }, { &g.pupil_magnification, 1, &g.pupil_magnification_sigma } };
+	for (size_t s = 0; s < g.poses.size(); ++s)
+	{
+		blocks.push_back({ g.principal_point[s].data(), 2, g.principal_point_sigma[s].data() });
+		blocks.push_back({ &g.lens_centre[s].x, 3, &g.lens_centre_sigma[s].x });
+		for (size_t p = 0; p < g.poses[s].size() && (s == 0 || !g.shared_poses); ++p)
+			blocks.push_back({ g.poses[s][p].data(), 6, g.pose_sigmas[s][p].data() });
+	}
+	return blocks;
+}
+
+/// Covariances of a problem's blocks, 0 for those that are held.
+class BlockCovariance
+{
+public:
+	/// Fails on a singular problem, which is the answer wanted there.
+	explicit BlockCovariance(ceres::Problem& to_judge) : problem(to_judge), covariance([] { ceres::Covariance::Options o; o.algorithm_type = ceres::SPARSE_QR; return o; }()) {}
+
+	bool Compute(const std::vector<const double*>& together, const std::vector<SigmaOf>& alone)
+	{
+		std::vector<std::pair<const double*, const double*>> pairs;
+		for (size_t i = 0; i < together.size(); ++i)
+			for (size_t j = i; j < together.size(); ++j)
+				if (Free(together[i]) && Free(together[j]))
+					pairs.emplace_back(together[i], together[j]);
+		for (const SigmaOf& a : alone)
+			if (Free(a.block))
+				pairs.emplace_back(a.block, a.block);
+		return covariance.Compute(pairs, &problem);
+	}
+
+	Eigen::MatrixXd Of(const double* a, const double* b) const
+	{
+		Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> c = Eigen::MatrixXd::Zero(problem.ParameterBlockSize(a), problem.ParameterBlockSize(b));
+		if (Free(a) && Free(b))
+			covariance.GetCovarianceBlock(a, b, c.data());
+		return c;
+	}
+
+	/// Of all of them, one after the other.
+	Eigen::MatrixXd Of(const std::vector<const double*>& blocks) const
+	{
+		int n = 0;
+		for (const double* block : blocks)
+			n += problem.ParameterBlockSize(block);
+		Eigen::MatrixXd all(n, n);
+		for (int i = 0, row = 0; i < int(blocks.size()); row += problem.ParameterBlockSize(blocks[size_t(i)]), ++i)
+			for (int j = 0, column = 0; j < int(blocks.size()); column += problem.ParameterBlockSize(blocks[size_t(j)]), ++j)
+			{
+				const double *a = blocks[size_t(i)], *b = blocks[size_t(j)];
+				all.block(row, column, problem.ParameterBlockSize(a), problem.ParameterBlockSize(b)) = i <= j ? Of(a, b) : Eigen::MatrixXd(Of(b, a).transpose());
+			}
+		return all;
+	}
+
+private:
+	bool Free(const double* block) const { return !problem.IsParameterBlockConstant(block); }
+
+	ceres::Problem& problem;
+	ceres::Covariance covariance;
+};
 
 }
 
@@ -147,63 +218,26 @@ bool JointFit::Covariance(Geometry& g, Unknowns& x, Eigen::MatrixXd& out) const
 	by_edges.kind = Refinement::EDGES;
 	ceres::Problem problem;
 	Build(by_edges, g, x, problem);
-	ceres::Covariance::Options options;
-	options.algorithm_type = ceres::SPARSE_QR;   // fails on a singular problem, which is the answer wanted there
-	ceres::Covariance covariance(options);
-	std::vector<const double*> lens{ &g.w_px, &x.d, &x.floor_squared, &x.power, x.curvature.data() };
-	for (const StateNumbers& state : x.state)
-		lens.push_back(state.data());
-	std::vector<std::pair<const double*, const double*>> pairs;
-	const auto want = [&](const double* a, const double* b)
-	{
-		if (!problem.IsParameterBlockConstant(a) && !problem.IsParameterBlockConstant(b))
-			pairs.emplace_back(a, b);
-	};
-	for (size_t i = 0; i < lens.size(); ++i)
-		for (size_t j = i; j < lens.size(); ++j)
-			want(lens[i], lens[j]);
-	want(g.distortion.data(), g.distortion.data());
-	want(&g.pupil_magnification, &g.pupil_magnification);
-	for (size_t s = 0; s < g.poses.size(); ++s)
-	{
-		want(g.principal_point[s].data(), g.principal_point[s].data());
-		want(&g.lens_centre[s].x, &g.lens_centre[s].x);
-		for (size_t p = 0; p < g.poses[s].size() && (s == 0 || !g.shared_poses); ++p)
-			want(g.poses[s][p].data(), g.poses[s][p].data());
-	}
-	if (!covariance.Compute(pairs, &problem))
+	BlockCovariance covariance(problem);
+	const std::vector<const double*> lens = LensBlocks(g, x);
+	const std::vector<SigmaOf> geometry = GeometryBlocks(g);
+	if (!covariance.Compute(lens, geometry))
 		return false;
 
 	double cost = 0;
 	problem.Evaluate(ceres::Problem::EvaluateOptions(), &cost, nullptr, nullptr, nullptr);
 	const double scale = 2 * cost / std::max(problem.NumResiduals() - problem.NumParameters(), 1);
-	const int n = 6 + 3 * int(x.state.size());
-	Eigen::MatrixXd c = Eigen::MatrixXd::Zero(n, n);
-	for (size_t i = 0, row = 0; i < lens.size(); row += size_t(problem.ParameterBlockSize(lens[i])), ++i)
-		for (size_t j = i, column = row; j < lens.size(); column += size_t(problem.ParameterBlockSize(lens[j])), ++j)
-		{
-			if (problem.IsParameterBlockConstant(lens[i]) || problem.IsParameterBlockConstant(lens[j]))
-				continue;
-			Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> block(problem.ParameterBlockSize(lens[i]), problem.ParameterBlockSize(lens[j]));
-			covariance.GetCovarianceBlock(lens[i], lens[j], block.data());
-			c.block(long(row), long(column), block.rows(), block.cols()) = block;
-			c.block(long(column), long(row), block.cols(), block.rows()) = block.transpose();
-		}
-	c *= scale;
+	Eigen::MatrixXd c = scale * covariance.Of(lens);
 	g.w_px_sigma = std::sqrt(c(0, 0));
 	c.row(0) *= task.pitch_mm;
 	c.col(0) *= task.pitch_mm;
 	const Eigen::MatrixXd J = PlanesByUnknowns(model, x, g.w_px * task.pitch_mm);
 	out = J * c * J.transpose();
-
-	BlockSigmas(covariance, problem, g.distortion.data(), scale, 5, g.distortion_sigma.data());
-	BlockSigmas(covariance, problem, &g.pupil_magnification, scale, 1, &g.pupil_magnification_sigma);
-	for (size_t s = 0; s < g.poses.size(); ++s)
+	for (const SigmaOf& wanted : geometry)
 	{
-		BlockSigmas(covariance, problem, g.principal_point[s].data(), scale, 2, g.principal_point_sigma[s].data());
-		BlockSigmas(covariance, problem, &g.lens_centre[s].x, scale, 3, &g.lens_centre_sigma[s].x);
-		for (size_t p = 0; p < g.poses[s].size() && (s == 0 || !g.shared_poses); ++p)
-			BlockSigmas(covariance, problem, g.poses[s][p].data(), scale, 6, g.pose_sigmas[s][p].data());
+		const Eigen::MatrixXd own = scale * covariance.Of(wanted.block, wanted.block);
+		for (int i = 0; i < wanted.size; ++i)
+			wanted.sigma[i] = std::sqrt(std::max(own(i, i), 0.0));
 	}
 	SpreadPoses(g);
 	return true;
