@@ -171,11 +171,12 @@ std::vector<Result> CheckScene(const Places& places, const Scene& scene)
 	const Picture reference = Render(places, scene, scene.reference, 1, cpu);
 	const double reference_error = EstimatedError(places.out / "povray.log");
 
-	// Twice each, the smaller: other work on the machine only ever adds.
+	// Twice each, the smaller: other work on the machine only ever adds. Where it still shows, up to six times.
 	std::vector<Result> results;
-	for (int repeat = 0; repeat < 2; ++repeat)
+	const auto in_time = [](const Result& r) { return std::abs(r.TimeRatio() - 1) <= TimeBound; };
+	for (int repeat = 0; repeat < 2 || (repeat < 6 && !std::all_of(results.begin(), results.end(), in_time)); ++repeat)
 	{
-		if (repeat == 1)
+		if (repeat > 0)
 		{
 			const std::vector<Row> again = RunTiltcost(places, scene, chosen);
 			for (size_t i = 0; i < results.size(); ++i)
