@@ -28,6 +28,7 @@ struct CameraLens
 	boost::shared_ptr<TileBorders> borders; ///< between the tiles of one picture, whichever thread traces them
 
 	boost::shared_ptr<DenoisedPicture> denoised; ///< where the scene asks for it, else null
+	double bokeh_mean = 1.0;            ///< brightness of the bokeh pigment, over the opening
 	PilotRequest pilot;                 ///< what tiltcost asks for, instead of the picture
 
 	/// Which of the equally good sets of samples.

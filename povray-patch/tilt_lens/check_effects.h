@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 //
-// What an effect must fulfil to be rendered, once the lens is known. Free of POV-Ray.
+// What an effect must fulfil to be rendered. Free of POV-Ray.
 
 #ifndef TILT_LENS_CHECK_EFFECTS_H
 #define TILT_LENS_CHECK_EFFECTS_H
+
+#include <algorithm>
 
 #include "lens_spec.h"
 #include "ray_range.h"
@@ -12,32 +14,62 @@
 namespace tilt_lens
 {
 
+/// Refuses numbers that no lens has.
+inline void CheckEffectWords(const LensSpec& spec)
+{
+	if(!IsFinite(spec.field_curvature.value))
+		Refuse("tilt_lens: field_curvature is not a finite number.");
+	for(int i = 0; i < DistortionTerms; i++)
+		if(!IsFinite(spec.distortion[i]))
+			Refuse("tilt_lens: distortion is not a finite number.");
+	const double count = spec.blades.value;
+	if(spec.blades && !(count >= FewestBlades && count <= MostBlades && count == std::floor(count)))
+		Refuse("tilt_lens: blades must be a whole number from %d to %d, but is %g.", FewestBlades, MostBlades, count);
+	if(!IsFinite(spec.blade_rotation.value))
+		Refuse("tilt_lens: the rotation of blades is not a finite number.");
+	if(!(spec.blade_curvature.value >= 0.0 && spec.blade_curvature.value <= 1.0))
+		Refuse("tilt_lens: the curvature of blades must lie between 0 (straight) and 1 (a circle), but is %g.", spec.blade_curvature.value);
+	if(spec.rim_radius && !(spec.rim_radius.value > 0.0 && IsFinite(spec.rim_radius.value) &&
+	                        spec.rim_distance.value > 0.0 && IsFinite(spec.rim_distance.value)))
+		Refuse("tilt_lens: the rim of vignetting optical must have a radius and a distance before the lens greater than 0, but has %g and %g.",
+		       spec.rim_radius.value, spec.rim_distance.value);
+	for(int i = 0; i < Wavelengths; i++)
+	{
+		if(!(std::fabs(spec.lateral[i]) < 0.5))
+			Refuse("tilt_lens: chromatic lateral must lie between -0.5 and 0.5 (0.001 is much for a real lens), but is %g.", spec.lateral[i]);
+		if(!IsFinite(spec.axial[i]))
+			Refuse("tilt_lens: chromatic axial is not a finite number.");
+	}
+}
+
 /// Refuses a distortion that folds within the frame, seen at 33 x 33 points of it
 /// and half a percent beyond, where anti-aliasing may ask.
 inline void CheckDistortion(const TiltLens& lens, const CameraVectors& camera)
 {
-	for(int i = 0; i < DistortionTerms; i++)
-		if(!IsFinite(lens.distortion[i]))
-			Refuse("tilt_lens: distortion is not a finite number.");
+	// The colour whose image is the smallest is looked at the farthest out.
+	const double magnified = 1.0 + std::min(0.0, std::min(lens.lateral[RedWavelength], lens.lateral[BlueWavelength]));
 	for(int i = 0; i <= 32; i++)
 		for(int j = 0; j <= 32; j++)
 		{
 			const double x = 1.01 * (i / 32.0 - 0.5), y = 1.01 * (j / 32.0 - 0.5);
 			const Vec3d v = lens.direction + x * camera.right + y * camera.up;
-			const double depth = Dot(v, lens.normal);
+			const double depth = Dot(v, lens.normal) * magnified;
 			if(depth > 0.0 && !IsInvertible(lens.distortion, Dot(v, lens.basis_x) / depth, -Dot(v, lens.basis_y) / depth))
 				Refuse("tilt_lens: the distortion folds inside the frame: no ideal point is imaged %.0f%% right and "
 				       "%.0f%% up of the centre. Use smaller coefficients or a narrower view.", 200.0 * x, 200.0 * y);
 		}
 }
 
-/// Refuses a bowl that is too deep for numbers. At the rim of what the lens sees, where
-/// v.n is but the rounding of |v|, kappa is larger than on the axis by C |v| / 1e-16.
-inline void CheckFieldCurvature(const TiltLens& lens, const CameraVectors& camera)
+/// Refuses a bowl that is too deep for numbers, or colours too far apart. At the rim of what the
+/// lens sees, where v.n is but the rounding of |v|, kappa is larger than on the axis by C |v| / 1e-16.
+inline void CheckFocus(const TiltLens& lens, const CameraVectors& camera)
 {
 	const double v = ScaledLength(lens.direction) + ScaledLength(camera.right) + ScaledLength(camera.up);
 	if(!(std::fabs(lens.field_curvature) * 1e17 * v * (1.0 + lens.aperture_diameter) < LongestRay))
 		Refuse("tilt_lens: field_curvature %g is too large to compute with.", lens.field_curvature);
+	for(int i = 0; i < Wavelengths; i++)
+		if(!(std::fabs(lens.axial[i]) * v * (1.0 + lens.aperture_diameter) < LongestRay))
+			Refuse("tilt_lens: chromatic axial %g is too large to compute with.", lens.axial[i]);
 }
 
 }

@@ -52,8 +52,9 @@ void DenoisedPicture::Record(int x, int y, const SampleSums& sums)
 	const size_t i = size_t(y - extended.top) * noisy.width + (x - extended.left);
 	const int part = sums.FirstPart();
 
+	const Colour mean = sums.Mean();
 	for(int c = 0; c < PictureChannels; c++)
-		noisy.mean[c][i] = float(sums.sum[c] / sums.count);
+		noisy.mean[c][i] = mean[c];
 	for(int c = 0; (part > 0) && (c < 3); c++)
 		noisy.first[c][i] = float(sums.FirstMean(c));
 	noisy.share[i] = part > 0 ? float(part) / float(sums.count) : 1.0f;

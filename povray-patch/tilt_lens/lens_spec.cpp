@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "check_effects.h"
+#include "effects.h"
 #include "field_curvature.h"
 #include "lens_spec.h"
 #include "optics.h"
@@ -54,7 +54,6 @@ void CheckRanges(const LensSpec& spec)
 	RequirePositive("focal_length", spec.focal_length);
 	RequirePositive("f_stop", spec.f_stop);
 	RequireFinite("aperture_diameter", spec.aperture_diameter);
-	RequireFinite("field_curvature", spec.field_curvature);
 	if(spec.aperture_diameter && spec.aperture_diameter.value < 0.0)
 		Refuse("tilt_lens: aperture_diameter must not be negative, but is %g.", spec.aperture_diameter.value);
 	if(!IsFinite(spec.aperture))
@@ -343,12 +342,7 @@ void Resolve(const LensSpec& spec, const CameraVectors& camera, TiltLens& lens)
 		       "the camera, its shift or its aperture is too large or too small.",
 		       ShortestDirection(lens), LongestDirection(lens, camera), ShortestRay, LongestRay);
 
-	lens.distorts = spec.distortion_given;
-	std::copy(spec.distortion, spec.distortion + DistortionTerms, lens.distortion);
-	if(lens.distorts)
-		CheckDistortion(lens, camera);
-	lens.field_curvature = spec.field_curvature.value;
-	CheckFieldCurvature(lens, camera);
+	ResolveEffects(spec, camera, lens);
 }
 
 }

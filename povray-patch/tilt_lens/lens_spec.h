@@ -8,7 +8,9 @@
 
 #include <string>
 
+#include "blades.h"
 #include "distortion.h"
+#include "lens_ray.h"
 #include "vec3.h"
 
 namespace tilt_lens
@@ -55,6 +57,13 @@ struct LensSpec
 	bool distortion_given = false;
 	double distortion[DistortionTerms] = {};
 	Given<double> field_curvature;
+	Given<double> blades;               ///< how many
+	Given<double> blade_rotation, blade_curvature;
+	bool natural_vignetting = false;
+	Given<double> rim_radius, rim_distance;     ///< vignetting optical R, Z
+	bool lateral_given = false, axial_given = false;
+	double lateral[Wavelengths] = {}, axial[Wavelengths] = {};
+	bool bokeh = false;                 ///< POV-Ray's word outside the block: the opening is the pigment's square
 
 	/// Let pixels learn from their neighbours.
 	bool denoise = false;
@@ -98,6 +107,18 @@ struct TiltLens
 	bool distorts = false;
 	double distortion[DistortionTerms] = {};
 	double field_curvature = 0.0;       ///< C
+	Blades blades = {};                 ///< none: the opening is round, or square
+	bool square = false;                ///< the opening of a bokeh pigment without blades, as wide as the aperture
+	bool natural_vignetting = false;
+	double rim_radius = 0.0, rim_distance = 0.0;    ///< of the second rim; 0: none
+	double lateral[Wavelengths] = {}, axial[Wavelengths] = {};
+
+	// What follows from the effects (effects.cpp).
+	LensStep steps[MostLensSteps + 1] = {};     ///< of every ray, ended by NULL
+	bool has_effects = false;
+	bool moves_pinhole_rays = false;    ///< without an opening it still is not `perspective`
+	bool weighs = false;                ///< rays may arrive darkened, or not at all
+	bool splits = false;                ///< three wavelengths are traced
 
 	/// Focused on a bowl, not on a plane.
 	bool Curves() const { return field_curvature != 0.0; }

@@ -28,7 +28,8 @@ using tilt_lens::Vec3d;
 
 static const char Tilt_Lens_Words[] =
 	"focal_plane_tilt, lens_tilt, focal_plane, focal_points, tilt_direction, focal_distance, "
-	"image_distance, focal_length, shift, aperture_diameter, f_stop, distortion, field_curvature, denoise, seed, show";
+	"image_distance, focal_length, shift, aperture_diameter, f_stop, distortion, field_curvature, "
+	"blades, vignetting, chromatic, denoise, seed, show";
 
 // Samples per pixel where the scene gives an aperture but no blur_samples.
 static const int Default_Blur_Samples = 128;
@@ -137,24 +138,13 @@ void Parser::Parse_Tilt_Lens_Word(Camera& New)
 		spec.shift = Vec3d{ uv[U], uv[V], 0.0 };
 	}
 	else if (word == "distortion")
-	{
-		if (spec.distortion_given)
-			Error("tilt_lens: distortion is given twice.");
-		spec.distortion_given = true;
-		spec.distortion[0] = Parse_Float();
-		for (int i = 1; i < tilt_lens::DistortionTerms; i++)
-		{
-			// Only a comma says that another coefficient follows: a number without one may be
-			// the next word, under a name that the scene has declared.
-			Get_Token();
-			if (Token.Token_Id != COMMA_TOKEN)
-			{
-				Unget_Token();
-				break;
-			}
-			spec.distortion[i] = Parse_Float();
-		}
-	}
+		Parse_Tilt_Lens_Distortion(spec);
+	else if (word == "blades")
+		Parse_Tilt_Lens_Blades(spec);
+	else if (word == "vignetting")
+		Parse_Tilt_Lens_Vignetting(spec);
+	else if (word == "chromatic")
+		Parse_Tilt_Lens_Chromatic(spec);
 	else if (word == "denoise")
 		spec.denoise = true;
 	else if (word == "show")
@@ -163,7 +153,7 @@ void Parser::Parse_Tilt_Lens_Word(Camera& New)
 		// plane is one of POV-Ray's own words, focus a name like any other.
 		if (Token.Token_Id == PLANE_TOKEN)
 			spec.show_plane = true;
-		else if (((Token.Token_Id == IDENTIFIER_TOKEN) || (Token.Data != NULL)) && (strcmp(Token.Token_String, "focus") == 0))
+		else if (Is_Tilt_Lens_Word("focus"))
 			spec.show_focus = true;
 		else
 			Error("tilt_lens: show takes focus or plane.");
@@ -180,8 +170,11 @@ void Parser::Resolve_Tilt_Lens(Camera& New)
 
 	if (New.Type != PERSPECTIVE_CAMERA)
 		Error("tilt_lens is a camera type of its own and cannot be combined with another.");
+	New.Tilt_Lens.spec.bokeh = (New.Bokeh != NULL);
 	if (!tilt_lens::ResolveTiltLens(New.Tilt_Lens.spec, Vectors_Of(New), New.Tilt_Lens.lens, error))
 		Error("%s", error.c_str());
+	if (New.Bokeh != NULL)
+		Measure_Tilt_Lens_Bokeh(New);
 	if (!New.Tilt_Lens.spec.right_given && New.Tilt_Lens.spec.Sensor_Is_Window())
 	{
 		// Almost certainly not what was meant: a window 1.33 wide at, say, 50.

@@ -21,12 +21,15 @@ struct SampleSums
 	static const int Channels = 5;
 	double sum[Channels], squares[Channels];
 	int count;
+	/// Light that vignetting or a bokeh pigment kept back, in samples: what lies behind the
+	/// picture is not darkened with it.
+	double unseen;
 
 	/// Mean red, green and blue as they stood at the latest powers of two, latest first.
 	double earlier[ChangesKept + 1][3];
 	int earlier_counts[ChangesKept + 1];
 
-	SampleSums() : count(0)
+	SampleSums() : count(0), unseen(0.0)
 	{
 		for(int i = 0; i < Channels; i++)
 			sum[i] = squares[i] = 0.0;
@@ -73,7 +76,9 @@ struct SampleSums
 
 	Colour Mean() const
 	{
-		return Colour(sum[0] / count, sum[1] / count, sum[2] / count, sum[3] / count, sum[4] / count);
+		const double seen = count - unseen;
+		// Nothing seen: black, and nothing behind it.
+		return Colour(sum[0] / count, sum[1] / count, sum[2] / count, seen > 0.0 ? sum[3] / seen : 0.0, seen > 0.0 ? sum[4] / seen : 0.0);
 	}
 
 	/// The pixel's share in the estimate of the picture's error: squared changes over

@@ -5,6 +5,7 @@
 #include <cstdarg>
 #include <cstdio>
 
+#include "effects.h"
 #include "optics.h"
 #include "statistics.h"
 
@@ -147,9 +148,7 @@ std::string StatisticsText(const TiltLens& lens, const FocusCounts& focus, const
 	const uint64_t all = focus.All();
 	Append(text, "Pixels in Focus: in front %.2f%%  at infinity %.2f%%  behind %.2f%%  empty %.2f%%\n",
 	       Percent(focus.front, all), Percent(focus.infinity, all), Percent(focus.behind, all), Percent(focus.empty, all));
-	std::string effects = lens.distorts ? "distortion" : "";
-	if(lens.Curves())
-		effects += effects.empty() ? "field_curvature" : ", field_curvature";
+	const std::string effects = EffectNames(lens);
 	Append(text, "Effects:         %s\n", effects.empty() ? "none" : effects.c_str());
 	if(counts.pixels > 0)
 	{

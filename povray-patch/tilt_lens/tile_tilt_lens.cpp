@@ -20,29 +20,6 @@ namespace pov
 using tilt_lens::SampleLevel;
 using tilt_lens::TilePixel;
 
-/// Goes on with a pixel until it has `samples` samples.
-void TracePixel::SampleTiltLensPixel(TilePixel& pixel, int samples, DBL width, DBL height)
-{
-	Ray ray;
-
-	while(pixel.sums.count < samples)
-	{
-		// No ray, where the pixel looks along or behind the lens: empty, transparent.
-		Colour c(0.0, 0.0, 0.0, 0.0, 1.0);
-
-		tiltLensSample = pixel.sampler.Next();
-		// remove interiors accumulated from previous sample (if any)
-		ray.ClearInteriors();
-		if(CreateCameraRay(ray, pixel.x + tiltLensSample.pixel_x - 0.5, pixel.y + tiltLensSample.pixel_y - 0.5, width, height, 0))
-		{
-			c.clear();
-			Trace::TraceTicket ticket(maxTraceLevel, adcBailout, sceneData->outputAlpha);
-			TraceRay(ray, c, 1.0, ticket, false, camera.Max_Ray_Distance);
-		}
-		pixel.sums.Add(c);
-	}
-}
-
 /// Samples a pixel until its own mean is as certain as the scene asks, or until
 /// blur_samples are spent.
 void TracePixel::ConvergeTiltLensPixel(TilePixel& pixel, DBL width, DBL height)

@@ -9,7 +9,7 @@
 #include "backend/render/tracepixel.h"
 #include "backend/scene/objects.h"
 #include "backend/shape/planes.h"
-#include "backend/tilt_lens/field_curvature.h"
+#include "backend/tilt_lens/bokeh.h"
 #include "backend/tilt_lens/optics.h"
 #include "backend/tilt_lens/preview.h"
 #include "backend/tilt_lens/sample_sums.h"
@@ -23,20 +23,25 @@ namespace pov
 
 using tilt_lens::Vec3d;
 
-/// Chooses, once, how rays go through this camera's lens: what a scene does not
-/// name is not in the code that its rays run through.
+/// Chooses, once, how rays go through this camera's lens and what becomes of their light:
+/// what a scene does not name is not in the code that its rays run through.
 void TracePixel::SetupTiltLens()
 {
 	const tilt_lens::CameraLens& camera_lens = camera.Tilt_Lens;
+	const tilt_lens::TiltLens& lens = camera_lens.lens;
+	const bool paints = (camera.Bokeh != NULL) && !lens.IsPinhole();
 
-	cameraDirection = Vector3d(camera_lens.lens.direction.x, camera_lens.lens.direction.y, camera_lens.lens.direction.z);
+	cameraDirection = Vector3d(lens.direction.x, lens.direction.y, lens.direction.z);
 	// False leaves the camera to stock's pinhole path.
-	useFocalBlur = camera_lens.Samples_Lens() || camera_lens.Shows() || camera_lens.lens.distorts;
-	const bool curves = camera_lens.lens.Curves();
-	if(camera_lens.lens.distorts)
-		sendRayThroughTiltLens = curves ? &TracePixel::SendRayThroughTiltLens<true, true> : &TracePixel::SendRayThroughTiltLens<true, false>;
+	useFocalBlur = camera_lens.Samples_Lens() || camera_lens.Shows() || lens.moves_pinhole_rays;
+	tiltLensWavelength = tilt_lens::GreenWavelength;
+	sendRayThroughTiltLens = lens.has_effects ? &TracePixel::SendRayThroughTiltLensWithEffects : &TracePixel::SendRayThroughTiltLens;
+	if(paints)
+		addTiltLensSample = lens.splits ? &TracePixel::AddTiltLensSample<true, true, true> : &TracePixel::AddTiltLensSample<true, true, false>;
+	else if(lens.weighs)
+		addTiltLensSample = lens.splits ? &TracePixel::AddTiltLensSample<true, false, true> : &TracePixel::AddTiltLensSample<true, false, false>;
 	else
-		sendRayThroughTiltLens = curves ? &TracePixel::SendRayThroughTiltLens<false, true> : &TracePixel::SendRayThroughTiltLens<false, false>;
+		addTiltLensSample = lens.splits ? &TracePixel::AddTiltLensSample<false, false, true> : &TracePixel::AddTiltLensSample<false, false, false>;
 	tiltLensTouchesInterior = InteriorTouchesTiltLens();
 }
 
@@ -85,38 +90,145 @@ bool TracePixel::InteriorTouchesTiltLens()
 	return false;
 }
 
+/// The start of both functions below: true where the pixel looks along or behind the lens
+/// plane (v.n <= 0). Then there is no ray, unless the lens is but a point.
+static inline bool Looks_Behind_Lens(const Vec3d& v, const tilt_lens::TiltLens& lens)
+{
+	return !(Dot(v, lens.normal) > 0.0);
+}
+
 /// Turns the pinhole ray of a pixel, which stands in `ray`, into the ray that
-/// leaves the current lens sample (DESIGN.md, section 2). False where the pixel
-/// looks along or behind the lens plane (v.n <= 0): there is no such ray, unless the
-/// lens is but a point.
+/// leaves the current lens sample (DESIGN.md, section 2). False where there is none.
 ///
 /// The pinhole direction is w v, not v; so is the result, since R is linear in v.
-template<bool Distorts, bool Curves>
 bool TracePixel::SendRayThroughTiltLens(Ray& ray)
 {
 	const tilt_lens::TiltLens& lens = camera.Tilt_Lens.lens;
-	Vec3d v = { ray.Direction[X], ray.Direction[Y], ray.Direction[Z] };
+	const Vec3d v = { ray.Direction[X], ray.Direction[Y], ray.Direction[Z] };
 
-	if(!(Dot(v, lens.normal) > 0.0))
+	if(Looks_Behind_Lens(v, lens))
 	{
 		if(!lens.IsPinhole())
 			return false;
 		InitRayContainerState(ray, false);
 		return true;
 	}
-	if(Distorts)
-		v = tilt_lens::UndistortDirection(lens.distortion, lens.basis_x, lens.basis_y, lens.normal, v);
 
 	const tilt_lens::PupilPoint p = tilt_lens::SquareToDisc(tiltLensSample.lens_u, tiltLensSample.lens_v);
 	const Vec3d S = p.x * lens.lens_x + p.y * lens.lens_y;
-	const DBL kappa = Curves ? tilt_lens::InverseFocusDistanceOnBowl(lens.inverse_focus, lens.field_curvature, lens.normal, v)
-	                         : tilt_lens::InverseFocusDistance(lens.inverse_focus, v);
-	const Vec3d R = tilt_lens::RayDirection(v, S, kappa);
+	const Vec3d R = tilt_lens::RayDirection(v, S, tilt_lens::InverseFocusDistance(lens.inverse_focus, v));
 
 	Make_Vector(ray.Origin, camera.Location[X] + S.x, camera.Location[Y] + S.y, camera.Location[Z] + S.z);
 	Make_Vector(ray.Direction, R.x, R.y, R.z);
 	InitRayContainerState(ray, tiltLensTouchesInterior);
 	return true;
+}
+
+/// The same for a lens with effects: one step after the other, as effects.cpp lists them.
+bool TracePixel::SendRayThroughTiltLensWithEffects(Ray& ray)
+{
+	const tilt_lens::TiltLens& lens = camera.Tilt_Lens.lens;
+	tilt_lens::LensRay r;
+
+	r.pixel = r.v = { ray.Direction[X], ray.Direction[Y], ray.Direction[Z] };
+	r.lens_u = tiltLensSample.lens_u;
+	r.lens_v = tiltLensSample.lens_v;
+	r.wavelength = tiltLensWavelength;
+	r.weight = tiltLensWeight = 1.0;
+	if(Looks_Behind_Lens(r.v, lens))
+	{
+		if(!lens.IsPinhole() || lens.weighs)
+			return false;
+		InitRayContainerState(ray, false);
+		return true;
+	}
+
+	for(const tilt_lens::LensStep *step = lens.steps; *step != NULL; step++)
+		(*step)(lens, r);
+	tiltLensWeight = r.weight;
+	tiltLensPoint = r.point;
+
+	Make_Vector(ray.Origin, camera.Location[X] + r.S.x, camera.Location[Y] + r.S.y, camera.Location[Z] + r.S.z);
+	Make_Vector(ray.Direction, r.R.x, r.R.y, r.R.z);
+	InitRayContainerState(ray, tiltLensTouchesInterior);
+	return true;
+}
+
+/// Traces the current lens sample in the current wavelength. Returns how much of its light
+/// arrives: `c`, transparency too, is multiplied by that. A ray of which nothing arrives is
+/// not traced.
+template<bool Weighs, bool Paints>
+DBL TracePixel::TraceTiltLensRay(Ray& ray, Colour& c, DBL x, DBL y, DBL width, DBL height)
+{
+	DBL weight = 1.0;
+	Colour paint;
+
+	// remove interiors accumulated from previous sample (if any)
+	ray.ClearInteriors();
+	if(!CreateCameraRay(ray, x, y, width, height, 0))
+	{
+		// No ray, where the pixel looks along or behind the lens: empty, transparent.
+		c = Colour(0.0, 0.0, 0.0, 0.0, 1.0);
+		return 1.0;
+	}
+	c.clear();
+	if(Weighs)
+		weight = tiltLensWeight;
+	if(Paints && (weight > 0.0))
+	{
+		paint = tilt_lens::BokehAt(camera.Bokeh, tiltLensPoint, threadData) / camera.Tilt_Lens.bokeh_mean;
+		weight *= paint.greyscale();
+	}
+	if(Weighs && !(weight > 0.0))
+		return 0.0;
+
+	Trace::TraceTicket ticket(maxTraceLevel, adcBailout, sceneData->outputAlpha);
+	TraceRay(ray, c, 1.0, ticket, false, camera.Max_Ray_Distance);
+	if(Paints)
+		c = Colour(c[pRED] * paint[pRED] * tiltLensWeight, c[pGREEN] * paint[pGREEN] * tiltLensWeight, c[pBLUE] * paint[pBLUE] * tiltLensWeight,
+		           c[pFILTER] * weight, c[pTRANSM] * weight);
+	else if(Weighs)
+		c *= weight;
+	return weight;
+}
+
+/// Traces the current lens sample of the pixel x, y and adds it to `sums`; once or, if
+/// wavelengths go different ways, three times.
+template<bool Weighs, bool Paints, bool Splits>
+void TracePixel::AddTiltLensSample(Ray& ray, tilt_lens::SampleSums& sums, DBL x, DBL y, DBL width, DBL height)
+{
+	Colour c;
+	DBL weight = 0.0;
+
+	if(!Splits)
+		weight = TraceTiltLensRay<Weighs, Paints>(ray, c, x, y, width, height);
+	else
+	{
+		c.clear();
+		for(tiltLensWavelength = 0; tiltLensWavelength < tilt_lens::Wavelengths; tiltLensWavelength++)
+		{
+			Colour one;
+			weight += TraceTiltLensRay<Weighs, Paints>(ray, one, x, y, width, height) / tilt_lens::Wavelengths;
+			c[tiltLensWavelength] = one[tiltLensWavelength];
+			c[pFILTER] += one[pFILTER] / tilt_lens::Wavelengths;
+			c[pTRANSM] += one[pTRANSM] / tilt_lens::Wavelengths;
+		}
+	}
+	if(Weighs)
+		sums.unseen += 1.0 - weight;
+	sums.Add(c);
+}
+
+/// Goes on with a pixel until it has `samples` samples.
+void TracePixel::SampleTiltLensPixel(tilt_lens::TilePixel& pixel, int samples, DBL width, DBL height)
+{
+	Ray ray;
+
+	while(pixel.sums.count < samples)
+	{
+		tiltLensSample = pixel.sampler.Next();
+		(this->*addTiltLensSample)(ray, pixel.sums, pixel.x + tiltLensSample.pixel_x - 0.5, pixel.y + tiltLensSample.pixel_y - 0.5, width, height);
+	}
 }
 
 /// The preview of focus: one ray through the lens centre, and paint over it.
@@ -154,15 +266,11 @@ void TracePixel::ShowTiltLens(Colour& colour, DBL x, DBL y, DBL width, DBL heigh
 void TracePixel::TraceRayThroughTiltLensCentre(Colour& colour, DBL x, DBL y, DBL width, DBL height)
 {
 	Ray ray;
+	tilt_lens::SampleSums sums;
 
-	colour = Colour(0.0, 0.0, 0.0, 0.0, 1.0);
 	tiltLensSample = { 0.5, 0.5, 0.5, 0.5 };
-	if(CreateCameraRay(ray, x, y, width, height, 0))
-	{
-		colour.clear();
-		Trace::TraceTicket ticket(maxTraceLevel, adcBailout, sceneData->outputAlpha);
-		TraceRay(ray, colour, 1.0, ticket, false, camera.Max_Ray_Distance);
-	}
+	(this->*addTiltLensSample)(ray, sums, x, y, width, height);
+	colour = sums.Mean();
 }
 
 /// A pixel by itself: the preview of focus, a lens without an opening, and the rough

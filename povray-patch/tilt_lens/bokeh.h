@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// The effect of POV-Ray's own word `bokeh { pigment { ... } }`: the opening is a square as
+// wide as the aperture, centred on the lens, and the pigment from <0, 0> to <1, 1> says how
+// much light of each colour every point of it lets through; the mean over the opening is
+// divided out, so that the exposure stays. With `blades` the opening is theirs.
+
+#ifndef TILT_LENS_BOKEH_H
+#define TILT_LENS_BOKEH_H
+
+// frame.h must always be the first POV file included (pulls in platform config)
+#include "backend/frame.h"
+#include "backend/colour/colour.h"
+#include "backend/texture/pigment.h"
+#include "backend/tilt_lens/lens_spec.h"
+
+namespace tilt_lens
+{
+
+/// What the pigment lets through at a point of the lens, which fills -1 to 1: red, green,
+/// blue, none of it negative.
+inline pov::Colour BokehAt(const pov::PIGMENT *pigment, const PupilPoint& point, pov::TraceThreadData *thread)
+{
+	pov::Colour c;
+	const pov::VECTOR place = { 0.5 * point.x + 0.5, 0.5 * point.y + 0.5, 0.0 };
+	pov::Compute_Pigment(c, pigment, place, NULL, NULL, thread);
+	for(int i = 0; i < 3; i++)
+		if(!(c[i] > 0.0f))
+			c[i] = 0.0f;
+	return c;
+}
+
+/// Mean brightness over the opening of the lens, of 128 x 128 points placed as samples are.
+inline double MeanBokeh(const pov::PIGMENT *pigment, const TiltLens& lens, pov::TraceThreadData *thread)
+{
+	const int n = 128;
+	double sum = 0.0;
+
+	for(int i = 0; i < n * n; i++)
+	{
+		const double u = (i / n + 0.5) / n, v = (i % n + 0.5) / n;
+		const PupilPoint square = { 2.0 * u - 1.0, 2.0 * v - 1.0 };
+		sum += BokehAt(pigment, lens.square ? square : SquareToBlades(lens.blades, u, v), thread).greyscale();
+	}
+	return sum / (n * n);
+}
+
+}
+
+#endif

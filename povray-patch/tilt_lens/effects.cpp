@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include <algorithm>
+
+#include "check_effects.h"
+#include "effects.h"
+#include "field_curvature.h"
+#include "natural_vignetting.h"
+#include "optical_vignetting.h"
+#include "optics.h"
+
+namespace tilt_lens
+{
+
+namespace
+{
+
+// What each effect does to a ray. The formulas are in the headers named like the effects.
+
+void MagnifyColour(const TiltLens& lens, LensRay& ray)
+{
+	ray.v = LateralDirection(lens.normal, lens.lateral[ray.wavelength], ray.v);
+}
+
+void Undistort(const TiltLens& lens, LensRay& ray)
+{
+	ray.v = UndistortDirection(lens.distortion, lens.basis_x, lens.basis_y, lens.normal, ray.v);
+}
+
+void OpenDisc(const TiltLens&, LensRay& ray)
+{
+	ray.point = SquareToDisc(ray.lens_u, ray.lens_v);
+}
+
+void OpenBlades(const TiltLens& lens, LensRay& ray)
+{
+	ray.point = SquareToBlades(lens.blades, ray.lens_u, ray.lens_v);
+}
+
+void OpenSquare(const TiltLens&, LensRay& ray)
+{
+	ray.point = { 2.0 * ray.lens_u - 1.0, 2.0 * ray.lens_v - 1.0 };
+}
+
+void FocusOnPlane(const TiltLens& lens, LensRay& ray)
+{
+	ray.kappa = InverseFocusDistance(lens.inverse_focus, ray.v);
+}
+
+void FocusOnBowl(const TiltLens& lens, LensRay& ray)
+{
+	ray.kappa = InverseFocusDistanceOnBowl(lens.inverse_focus, lens.field_curvature, lens.normal, ray.v);
+}
+
+void FocusColour(const TiltLens& lens, LensRay& ray)
+{
+	ray.kappa = AxialFocus(lens.normal, lens.axial[ray.wavelength], ray.v, ray.kappa);
+}
+
+void LeaveLens(const TiltLens& lens, LensRay& ray)
+{
+	ray.S = ray.point.x * lens.lens_x + ray.point.y * lens.lens_y;
+	ray.R = RayDirection(ray.v, ray.S, ray.kappa);
+}
+
+void DarkenNaturally(const TiltLens& lens, LensRay& ray)
+{
+	ray.weight *= NaturalFalloff(lens.normal, lens.axis, ray.pixel);
+}
+
+void CutByRim(const TiltLens& lens, LensRay& ray)
+{
+	if(!PassesRim(ViewOfRim(lens.normal, ray.v, ray.kappa, lens.rim_distance), ray.S, lens.rim_radius))
+		ray.weight = 0.0;
+}
+
+bool Always(const TiltLens&) { return true; }
+bool MagnifiesColours(const TiltLens& lens) { return lens.lateral[RedWavelength] != 0.0 || lens.lateral[BlueWavelength] != 0.0; }
+bool FocusesColours(const TiltLens& lens) { return lens.axial[RedWavelength] != 0.0 || lens.axial[BlueWavelength] != 0.0; }
+bool Distorts(const TiltLens& lens) { return lens.distorts; }
+bool IsRound(const TiltLens& lens) { return lens.blades.count == 0 && !lens.square; }
+bool HasBlades(const TiltLens& lens) { return lens.blades.count > 0; }
+bool IsSquare(const TiltLens& lens) { return lens.square; }
+bool IsFlat(const TiltLens& lens) { return !lens.Curves(); }
+bool IsCurved(const TiltLens& lens) { return lens.Curves(); }
+bool FallsOff(const TiltLens& lens) { return lens.natural_vignetting; }
+bool HasRim(const TiltLens& lens) { return lens.rim_radius > 0.0; }
+
+/// All there is, in the order in which a ray meets it. Those without a word are the lens itself.
+const struct
+{
+	const char *word;
+	bool (*is_on)(const TiltLens& lens);
+	LensStep step;
+	bool moves_pinhole_rays;        ///< does something without an opening too
+}
+Order[MostLensSteps] =
+{
+	{ "chromatic lateral", &MagnifiesColours, &MagnifyColour, true },
+	{ "distortion", &Distorts, &Undistort, true },
+	{ "", &IsRound, &OpenDisc, false },
+	{ "blades", &HasBlades, &OpenBlades, false },
+	{ "", &IsSquare, &OpenSquare, false },
+	{ "", &IsFlat, &FocusOnPlane, false },
+	{ "field_curvature", &IsCurved, &FocusOnBowl, false },
+	{ "chromatic axial", &FocusesColours, &FocusColour, false },
+	{ "", &Always, &LeaveLens, false },
+	{ "vignetting natural", &FallsOff, &DarkenNaturally, true },
+	{ "vignetting optical", &HasRim, &CutByRim, true }
+};
+
+void Take(const LensSpec& spec, TiltLens& lens)
+{
+	lens.distorts = spec.distortion_given;
+	std::copy(spec.distortion, spec.distortion + DistortionTerms, lens.distortion);
+	lens.field_curvature = spec.field_curvature.value;
+	if(spec.blades)
+		lens.blades = MakeBlades(int(spec.blades.value), spec.blade_rotation.value * 3.14159265358979323846 / 180.0, spec.blade_curvature.value);
+	lens.square = spec.bokeh && !spec.blades;
+	lens.natural_vignetting = spec.natural_vignetting;
+	lens.rim_radius = spec.rim_radius.value;
+	lens.rim_distance = spec.rim_distance.value;
+	std::copy(spec.lateral, spec.lateral + Wavelengths, lens.lateral);
+	std::copy(spec.axial, spec.axial + Wavelengths, lens.axial);
+}
+
+void SettleSteps(TiltLens& lens)
+{
+	int n = 0;
+	for(const auto& effect : Order)
+	{
+		if(effect.step == NULL || !effect.is_on(lens))
+			continue;
+		lens.steps[n++] = effect.step;
+		lens.has_effects |= effect.word[0] != '\0' || effect.step == &OpenSquare;
+		lens.moves_pinhole_rays |= effect.moves_pinhole_rays;
+	}
+	lens.steps[n] = NULL;
+	lens.weighs = FallsOff(lens) || HasRim(lens);
+	lens.splits = MagnifiesColours(lens) || FocusesColours(lens);
+}
+
+}
+
+void ResolveEffects(const LensSpec& spec, const CameraVectors& camera, TiltLens& lens)
+{
+	CheckEffectWords(spec);
+	Take(spec, lens);
+	if(lens.distorts)
+		CheckDistortion(lens, camera);
+	CheckFocus(lens, camera);
+	SettleSteps(lens);
+}
+
+std::string EffectNames(const TiltLens& lens)
+{
+	std::string names;
+	for(const auto& effect : Order)
+		if(effect.step != NULL && effect.word[0] != '\0' && effect.is_on(lens))
+			names += (names.empty() ? "" : ", ") + std::string(effect.word);
+	return names;
+}
+
+}

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// Parsing of the effects in camera { tilt_lens { ... } } that take more than a number.
+
+#include <cstring>
+
+// frame.h must always be the first POV file included (pulls in platform config)
+#include "backend/frame.h"
+#include "backend/parser/parse.h"
+#include "backend/scene/camera.h"
+#include "backend/tilt_lens/bokeh.h"
+
+// this must be the last file included
+#include "base/povdebug.h"
+
+namespace pov
+{
+
+using tilt_lens::Given;
+using tilt_lens::LensSpec;
+
+/// Whether the current token is a word, as which the block's words arrive: a name, or what
+/// the scene has declared under that name.
+bool Parser::Is_Tilt_Lens_Word(const char *word)
+{
+	return ((Token.Token_Id == IDENTIFIER_TOKEN) || (Token.Data != NULL)) && (strcmp(Token.Token_String, word) == 0);
+}
+
+/// Whether the next token is the word, which is then consumed.
+bool Parser::Accept_Tilt_Lens_Word(const char *word)
+{
+	Get_Token();
+	if (Is_Tilt_Lens_Word(word))
+		return true;
+	Unget_Token();
+	return false;
+}
+
+/// distortion K1 [, K2 ...]
+void Parser::Parse_Tilt_Lens_Distortion(LensSpec& spec)
+{
+	if (spec.distortion_given)
+		Error("tilt_lens: distortion is given twice.");
+	spec.distortion_given = true;
+	spec.distortion[0] = Parse_Float();
+	for (int i = 1; i < tilt_lens::DistortionTerms; i++)
+	{
+		// Only a comma says that another coefficient follows: a number without one may be
+		// the next word, under a name that the scene has declared.
+		Get_Token();
+		if (Token.Token_Id != COMMA_TOKEN)
+		{
+			Unget_Token();
+			break;
+		}
+		spec.distortion[i] = Parse_Float();
+	}
+}
+
+/// blades N [rotation A] [curvature C]
+void Parser::Parse_Tilt_Lens_Blades(LensSpec& spec)
+{
+	if (spec.blades.given)
+		Error("tilt_lens: blades is given twice.");
+	spec.blades = Parse_Float();
+	if (Accept_Tilt_Lens_Word("rotation"))
+		spec.blade_rotation = Parse_Float();
+	if (Accept_Tilt_Lens_Word("curvature"))
+		spec.blade_curvature = Parse_Float();
+}
+
+/// vignetting natural, vignetting optical R, Z; both may follow one word.
+void Parser::Parse_Tilt_Lens_Vignetting(LensSpec& spec)
+{
+	bool known = false;
+
+	while (true)
+	{
+		if (Accept_Tilt_Lens_Word("natural"))
+		{
+			if (spec.natural_vignetting)
+				Error("tilt_lens: vignetting natural is given twice.");
+			spec.natural_vignetting = true;
+		}
+		else if (Accept_Tilt_Lens_Word("optical"))
+		{
+			if (spec.rim_radius.given)
+				Error("tilt_lens: vignetting optical is given twice.");
+			spec.rim_radius = Parse_Float();
+			Parse_Comma();
+			spec.rim_distance = Parse_Float();
+		}
+		else if (known)
+			return;
+		else
+			Error("tilt_lens: vignetting takes natural, or optical with the radius of a rim and its distance before the lens.");
+		known = true;
+	}
+}
+
+/// chromatic [lateral CR, CB] [axial AR, AB]
+void Parser::Parse_Tilt_Lens_Chromatic(LensSpec& spec)
+{
+	static const struct { const char *word; bool LensSpec::*given; double (LensSpec::*value)[tilt_lens::Wavelengths]; } kinds[] =
+	{
+		{ "lateral", &LensSpec::lateral_given, &LensSpec::lateral },
+		{ "axial", &LensSpec::axial_given, &LensSpec::axial }
+	};
+	bool known = false;
+
+	for (int i = 0; i < 2; i++)
+	{
+		if (!Accept_Tilt_Lens_Word(kinds[i].word))
+			continue;
+		if (spec.*kinds[i].given)
+			Error("tilt_lens: chromatic %s is given twice.", kinds[i].word);
+		known = spec.*kinds[i].given = true;
+		(spec.*kinds[i].value)[tilt_lens::RedWavelength] = Parse_Float();
+		Parse_Comma();
+		(spec.*kinds[i].value)[tilt_lens::BlueWavelength] = Parse_Float();
+	}
+	if (!known)
+		Error("tilt_lens: chromatic takes lateral, axial or both, in this order, each with a value for red and one for blue.");
+}
+
+/// camera { bokeh { pigment { ... } } }: how much light it lets through, once the lens is resolved.
+void Parser::Measure_Tilt_Lens_Bokeh(Camera& New)
+{
+	Post_Pigment(New.Bokeh);
+	New.Tilt_Lens.bokeh_mean = tilt_lens::MeanBokeh(New.Bokeh, New.Tilt_Lens.lens, GetParserDataPtr());
+	if (!(New.Tilt_Lens.bokeh_mean > 0.0))
+		Error("tilt_lens: the bokeh pigment is black all over the lens, <0, 0> to <1, 1>; no light gets through.");
+}
+
+}
