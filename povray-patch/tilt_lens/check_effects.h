@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "lens_spec.h"
+#include "pupil_magnification.h"
 #include "ray_range.h"
 #include "refusal.h"
 
@@ -33,6 +34,8 @@ inline void CheckEffectWords(const LensSpec& spec)
 	                        spec.rim_distance.value > 0.0 && IsFinite(spec.rim_distance.value)))
 		Refuse("tilt_lens: the rim of vignetting optical must have a radius and a distance before the lens greater than 0, but has %g and %g.",
 		       spec.rim_radius.value, spec.rim_distance.value);
+	if(spec.pupil_magnification && !(spec.pupil_magnification.value > 0.01 && spec.pupil_magnification.value < 100.0))
+		Refuse("tilt_lens: pupil_magnification must lie between 0.01 and 100 (1.0 where both pupils are as large), but is %g.", spec.pupil_magnification.value);
 	for(int i = 0; i < Wavelengths; i++)
 	{
 		if(!(std::fabs(spec.lateral[i]) < 0.5))
@@ -52,7 +55,8 @@ inline void CheckDistortion(const TiltLens& lens, const CameraVectors& camera)
 		for(int j = 0; j <= 32; j++)
 		{
 			const double x = 1.01 * (i / 32.0 - 0.5), y = 1.01 * (j / 32.0 - 0.5);
-			const Vec3d v = lens.direction + x * camera.right + y * camera.up;
+			const Vec3d pixel = DirectionFromExitPupil(lens.axis, lens.pupil_magnification, lens.direction + x * camera.right + y * camera.up);
+			const Vec3d v = DirectionBeforePupils(lens.normal, lens.pupil_magnification, pixel);
 			const double depth = Dot(v, lens.normal) * magnified;
 			if(depth > 0.0 && !IsInvertible(lens.distortion, Dot(v, lens.basis_x) / depth, -Dot(v, lens.basis_y) / depth))
 				Refuse("tilt_lens: the distortion folds inside the frame: no ideal point is imaged %.0f%% right and "

@@ -8,6 +8,7 @@
 #include "natural_vignetting.h"
 #include "optical_vignetting.h"
 #include "optics.h"
+#include "pupil_magnification.h"
 
 namespace tilt_lens
 {
@@ -16,6 +17,12 @@ namespace
 {
 
 // What each effect does to a ray. The formulas are in the headers named like the effects.
+
+void PassPupils(const TiltLens& lens, LensRay& ray)
+{
+	ray.pixel = DirectionFromExitPupil(lens.axis, lens.pupil_magnification, ray.pixel);
+	ray.v = DirectionBeforePupils(lens.normal, lens.pupil_magnification, ray.pixel);
+}
 
 void MagnifyColour(const TiltLens& lens, LensRay& ray)
 {
@@ -75,18 +82,22 @@ void CutByRim(const TiltLens& lens, LensRay& ray)
 }
 
 bool Always(const TiltLens&) { return true; }
+bool MagnifiesPupils(const TiltLens& lens) { return lens.pupil_magnification != 1.0; }
 bool MagnifiesColours(const TiltLens& lens) { return lens.lateral[RedWavelength] != 0.0 || lens.lateral[BlueWavelength] != 0.0; }
 bool FocusesColours(const TiltLens& lens) { return lens.axial[RedWavelength] != 0.0 || lens.axial[BlueWavelength] != 0.0; }
 bool Distorts(const TiltLens& lens) { return lens.distorts; }
 bool IsRound(const TiltLens& lens) { return lens.blades.count == 0 && !lens.square; }
 bool HasBlades(const TiltLens& lens) { return lens.blades.count > 0; }
 bool IsSquare(const TiltLens& lens) { return lens.square; }
+bool HasBokeh(const TiltLens& lens) { return lens.bokeh; }
+bool IsShifted(const TiltLens& lens) { return lens.shifted; }
 bool IsFlat(const TiltLens& lens) { return !lens.Curves(); }
 bool IsCurved(const TiltLens& lens) { return lens.Curves(); }
 bool FallsOff(const TiltLens& lens) { return lens.natural_vignetting; }
 bool HasRim(const TiltLens& lens) { return lens.rim_radius > 0.0; }
 
-/// All there is, in the order in which a ray meets it. Those without a word are the lens itself.
+/// All there is, in the order in which a ray meets it. Those without a word are the lens itself;
+/// those without a step cost rays nothing here.
 const struct
 {
 	const char *word;
@@ -94,13 +105,16 @@ const struct
 	LensStep step;
 	bool moves_pinhole_rays;        ///< does something without an opening too
 }
-Order[MostLensSteps] =
+Order[] =
 {
+	{ "shift", &IsShifted, NULL, false },       // of the window, once (lens_spec.cpp)
+	{ "pupil_magnification", &MagnifiesPupils, &PassPupils, true },
 	{ "chromatic lateral", &MagnifiesColours, &MagnifyColour, true },
 	{ "distortion", &Distorts, &Undistort, true },
 	{ "", &IsRound, &OpenDisc, false },
 	{ "blades", &HasBlades, &OpenBlades, false },
 	{ "", &IsSquare, &OpenSquare, false },
+	{ "bokeh", &HasBokeh, NULL, false },        // weighs the light when it is there (trace_tilt_lens.cpp)
 	{ "", &IsFlat, &FocusOnPlane, false },
 	{ "field_curvature", &IsCurved, &FocusOnBowl, false },
 	{ "chromatic axial", &FocusesColours, &FocusColour, false },
@@ -116,13 +130,18 @@ void Take(const LensSpec& spec, TiltLens& lens)
 	lens.field_curvature = spec.field_curvature.value;
 	if(spec.blades)
 		lens.blades = MakeBlades(int(spec.blades.value), spec.blade_rotation.value * 3.14159265358979323846 / 180.0, spec.blade_curvature.value);
+	lens.bokeh = spec.bokeh && !lens.IsPinhole();
 	lens.square = spec.bokeh && !spec.blades;
+	lens.shifted = spec.shift.value.x != 0.0 || spec.shift.value.y != 0.0;
+	lens.pupil_magnification = spec.pupil_magnification ? spec.pupil_magnification.value : 1.0;
 	lens.natural_vignetting = spec.natural_vignetting;
 	lens.rim_radius = spec.rim_radius.value;
 	lens.rim_distance = spec.rim_distance.value;
 	std::copy(spec.lateral, spec.lateral + Wavelengths, lens.lateral);
 	std::copy(spec.axial, spec.axial + Wavelengths, lens.axial);
 }
+
+static_assert(sizeof(Order) / sizeof(Order[0]) <= MostLensSteps, "raise MostLensSteps");
 
 void SettleSteps(TiltLens& lens)
 {
@@ -156,7 +175,7 @@ std::string EffectNames(const TiltLens& lens)
 {
 	std::string names;
 	for(const auto& effect : Order)
-		if(effect.step != NULL && effect.word[0] != '\0' && effect.is_on(lens))
+		if(effect.word[0] != '\0' && effect.is_on(lens))
 			names += (names.empty() ? "" : ", ") + std::string(effect.word);
 	return names;
 }

@@ -19,7 +19,7 @@ struct TiltLens;
 /// World vectors; of directions the length is the pinhole direction's, w |v|.
 struct LensRay
 {
-	Vec3<double> pixel;         ///< pinhole direction of the pixel, as the sensor sees it
+	Vec3<double> pixel;         ///< direction of the pixel, as the sensor sees it
 	Vec3<double> v;             ///< direction in the scene, which effects may turn
 	double lens_u, lens_v;      ///< the sample of the lens, in the unit square
 	int wavelength;             ///< Wavelength that is traced; green stands for all
@@ -32,8 +32,8 @@ struct LensRay
 
 typedef void (*LensStep)(const TiltLens& lens, LensRay& ray);
 
-/// Upper bound of a lens's steps, one each of all that exist.
-const int MostLensSteps = 12;
+/// Upper bound of a lens's steps.
+const int MostLensSteps = 16;
 
 }
 

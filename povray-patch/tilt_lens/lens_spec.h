@@ -63,6 +63,7 @@ struct LensSpec
 	Given<double> rim_radius, rim_distance;     ///< vignetting optical R, Z
 	bool lateral_given = false, axial_given = false;
 	double lateral[Wavelengths] = {}, axial[Wavelengths] = {};
+	Given<double> pupil_magnification;
 	bool bokeh = false;                 ///< POV-Ray's word outside the block: the opening is the pigment's square
 
 	/// Let pixels learn from their neighbours.
@@ -108,10 +109,12 @@ struct TiltLens
 	double distortion[DistortionTerms] = {};
 	double field_curvature = 0.0;       ///< C
 	Blades blades = {};                 ///< none: the opening is round, or square
+	bool shifted = false, bokeh = false;
 	bool square = false;                ///< the opening of a bokeh pigment without blades, as wide as the aperture
 	bool natural_vignetting = false;
 	double rim_radius = 0.0, rim_distance = 0.0;    ///< of the second rim; 0: none
 	double lateral[Wavelengths] = {}, axial[Wavelengths] = {};
+	double pupil_magnification = 1.0;
 
 	// What follows from the effects (effects.cpp).
 	LensStep steps[MostLensSteps + 1] = {};     ///< of every ray, ended by NULL

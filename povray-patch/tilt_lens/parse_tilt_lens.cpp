@@ -29,7 +29,7 @@ using tilt_lens::Vec3d;
 static const char Tilt_Lens_Words[] =
 	"focal_plane_tilt, lens_tilt, focal_plane, focal_points, tilt_direction, focal_distance, "
 	"image_distance, focal_length, shift, aperture_diameter, f_stop, distortion, field_curvature, "
-	"blades, vignetting, chromatic, denoise, seed, show";
+	"blades, vignetting, chromatic, pupil_magnification, denoise, seed, show";
 
 // Samples per pixel where the scene gives an aperture but no blur_samples.
 static const int Default_Blur_Samples = 128;
@@ -78,7 +78,8 @@ void Parser::Parse_Tilt_Lens_Word(Camera& New)
 		{ "focal_length", &LensSpec::focal_length },
 		{ "aperture_diameter", &LensSpec::aperture_diameter },
 		{ "f_stop", &LensSpec::f_stop },
-		{ "field_curvature", &LensSpec::field_curvature }
+		{ "field_curvature", &LensSpec::field_curvature },
+		{ "pupil_magnification", &LensSpec::pupil_magnification }
 	};
 
 	// seed is one of POV-Ray's own words, a function.

@@ -45,6 +45,14 @@ inline uint32_t ReverseBits(uint32_t x)
 	return ((x & 0x55555555u) << 1) | ((x >> 1) & 0x55555555u);
 }
 
+inline uint64_t ReverseBits(uint64_t x)
+{
+	x = __builtin_bswap64(x);
+	x = ((x & 0x0f0f0f0f0f0f0f0full) << 4) | ((x >> 4) & 0x0f0f0f0f0f0f0f0full);
+	x = ((x & 0x3333333333333333ull) << 2) | ((x >> 2) & 0x3333333333333333ull);
+	return ((x & 0x5555555555555555ull) << 1) | ((x >> 1) & 0x5555555555555555ull);
+}
+
 inline Directions::Directions()
 {
 	// Joe and Kuo's new-joe-kuo-6, dimensions 2 to 4: degree s, coefficients a,
@@ -129,7 +137,9 @@ class PixelSampler
 		{
 			// The lens gets the first two dimensions, the best of the sequence:
 			// blur needs many samples where the pixel's area needs few.
-			const LensSample s = { Value(2), Value(3), Value(0), Value(1) };
+			LensSample s;
+			Values(0, s.lens_u, s.lens_v);
+			Values(2, s.pixel_x, s.pixel_y);
 			const int bit = __builtin_ctz(++index);
 			for(int d = 0; d < sobol::Dimensions; d++)
 				point[d] ^= table->v[bit][d];
@@ -137,10 +147,13 @@ class PixelSampler
 		}
 
 	private:
-		double Value(int d) const
+		/// Dimensions d and d + 1; two at a time, because one word holds both to be reversed.
+		void Values(int d, double& first, double& second) const
 		{
-			const uint32_t bits = sobol::ReverseBits(sobol::ScrambleReversed(point[d], seed[d]));
-			return (double(bits) + 0.5) * (1.0 / 4294967296.0);
+			const uint64_t pair = (uint64_t(sobol::ScrambleReversed(point[d], seed[d])) << 32) | sobol::ScrambleReversed(point[d + 1], seed[d + 1]);
+			const uint64_t bits = sobol::ReverseBits(pair);
+			first = (double(uint32_t(bits)) + 0.5) * (1.0 / 4294967296.0);
+			second = (double(uint32_t(bits >> 32)) + 0.5) * (1.0 / 4294967296.0);
 		}
 
 		const sobol::Directions *table;

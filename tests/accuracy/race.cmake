@@ -16,7 +16,7 @@ target_include_directories(race SYSTEM PRIVATE ${OpenCV_INCLUDE_DIRS})
 target_link_libraries(race PRIVATE render_test_support opencv_core opencv_imgproc opencv_imgcodecs CLI11::CLI11
 	nlohmann_json::nlohmann_json fmt::fmt Threads::Threads tilt_lens_warnings)
 
-add_executable(race_nothing EXCLUDE_FROM_ALL race_nothing.cpp race_curve.cpp race_process.cpp)
+add_executable(race_nothing EXCLUDE_FROM_ALL race_nothing.cpp callgrind.cpp race_curve.cpp race_process.cpp)
 target_include_directories(race_nothing PRIVATE "${PROJECT_SOURCE_DIR}/tests/render")
 target_link_libraries(race_nothing PRIVATE render_test_support CLI11::CLI11 fmt::fmt tilt_lens_warnings)
 

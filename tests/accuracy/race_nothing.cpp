@@ -5,6 +5,7 @@
 //   race_nothing --ours POVRAY --stock POVRAY --scenes DIR --out DIR --work DIR
 //
 // Exit 0: all within the limits, or --only-report; 1: not; 2: wrong usage or a program failed.
+#include "callgrind.h"
 #include "picture.h"
 #include "race_curve.h"
 #include "race_process.h"
@@ -68,16 +69,7 @@ Words Camera(int camera, int samples = 0, double variance = 0, int min = 0)
 
 double Instructions(const Bench& bench, const std::string& scene, int width, int camera)
 {
-	Words command = {"valgrind", "--tool=callgrind", "--callgrind-out-file=callgrind.out"};
-	const Words povray = Command(bench, bench.ours, scene, width, Camera(camera));
-	command.insert(command.end(), povray.begin(), povray.end());
-	RunMeasured(command, bench.work, bench.work / "valgrind.log");
-	std::ifstream file(bench.work / "callgrind.out");
-	for (std::string line; std::getline(file, line);)
-		for (const char* head : {"totals: ", "summary: "})
-			if (line.compare(0, std::string(head).size(), head) == 0)
-				return std::stod(line.substr(std::string(head).size()));
-	throw std::runtime_error("callgrind counted nothing");
+	return RunCallgrind(Command(bench, bench.ours, scene, width, Camera(camera)), bench.work).instructions;
 }
 
 struct Row

@@ -5,6 +5,8 @@
 //   compare_pictures same A B            equal in every pixel, alpha too
 //   compare_pictures rms LIMIT A B       RMS difference of red, green and blue at most LIMIT
 //   compare_pictures differ LIMIT A B    ... at least LIMIT
+//   compare_pictures alpha LIMIT A B     RMS difference of alpha at most LIMIT
+//   compare_pictures channels LIMIT R G B A    red of A is that of R, and so on: RMS difference at most LIMIT
 //   compare_pictures sum WHOLE PART...   the parts, black elsewhere, add up to the whole in every pixel
 //   compare_pictures empty A             prints the shares of pixels, in percent, with alpha 0, which must be black,
 //                                        and with an alpha between 0 and 1
@@ -103,12 +105,32 @@ bool Series(double ratio, const std::vector<Picture>& pictures)
 	return worst <= ratio && steps.size() > 2;
 }
 
+bool Alpha(double limit, const Picture& a, const Picture& b)
+{
+	double sum = 0;
+	for (std::size_t i = 0; i < a.alpha.size(); ++i)
+		sum += std::pow(a.alpha[i] - b.alpha.at(i), 2);
+	const double rms = std::sqrt(sum / double(a.alpha.size()));
+	std::printf("RMS difference of alpha %.5f (at most %.5f)\n", rms, limit);
+	return rms <= limit;
+}
+
+bool Channels(double limit, const std::vector<Picture>& pictures)
+{
+	Picture merged = pictures[3];
+	for (std::size_t k = 0; k < merged.rgb.size(); ++k)
+		merged.rgb[k] = pictures[k % 3].rgb.at(k);
+	const double rms = RmsDifference(merged, pictures[3]);
+	std::printf("RMS difference %.5f (at most %.5f)\n", rms, limit);
+	return rms <= limit;
+}
+
 bool Run(const std::string& how, std::vector<std::string> words)
 {
 	if ((how == "all" || how == "none") && words.size() == 3)
 		return Colour(how == "all", Numbers(words[0], 3), Numbers(words[1], 4), ReadPicture(words[2]));
 	double limit = 0;
-	if (how == "rms" || how == "differ" || how == "series")
+	if (how == "rms" || how == "differ" || how == "series" || how == "alpha" || how == "channels")
 	{
 		limit = std::stod(words.at(0));
 		words.erase(words.begin());
@@ -138,6 +160,10 @@ bool Run(const std::string& how, std::vector<std::string> words)
 				sum.rgb[k] += part->rgb.at(k);
 		return Same(*a, sum);
 	}
+	if (how == "alpha")
+		return Alpha(limit, a[0], a[1]);
+	if (how == "channels" && pictures.size() == 4)
+		return Channels(limit, pictures);
 	if (how == "same")
 		return Same(a[0], a[1]);
 	const double rms = RmsDifference(a[0], a[1]);
@@ -155,7 +181,7 @@ int main(int argc, char** argv)
 try
 {
 	if (argc < 3)
-		throw std::runtime_error("usage: compare_pictures same|rms|differ|sum|empty|all|none|series ...");
+		throw std::runtime_error("usage: compare_pictures same|rms|differ|alpha|channels|sum|empty|all|none|series ...");
 	return Run(argv[1], {argv + 2, argv + argc}) ? 0 : 1;
 }
 catch (const std::exception& error)

@@ -38,6 +38,12 @@ refusals)
 	refused tilted_behind "lens_tilt 10 focal_distance 1 focal_length 2" "$at_origin" "would be -0.507596, which must be greater than 0"
 	refused right_angle "focal_plane_tilt 90" "$at_origin" "must lie between -90 and 90 degrees, but is 90"
 	refused line_of_points "focal_points <0, 0, 5>, <1, 0, 6>, <2, 0, 7>" "$at_origin" "lie on one line"
+	refused blades_few "blades 2" "$at_origin" "blades must be a whole number from 3 to 64, but is 2"
+	refused blades_bent "blades 5 rotation 10 curvature 1.5" "$at_origin" "curvature of blades must lie between 0 (straight) and 1 (a circle), but is 1.5"
+	refused rim_behind "vignetting natural optical 10, -3" "$at_origin" "rim of vignetting optical must have a radius and a distance before the lens greater than 0, but has 10 and -3"
+	refused colours "chromatic lateral 0.7, 0" "$at_origin" "chromatic lateral must lie between -0.5 and 0.5"
+	refused no_pupil "pupil_magnification 0" "$at_origin" "pupil_magnification must lie between 0.01 and 100"
+	refused black_bokeh "focal_distance 9" "$at_origin bokeh { pigment { rgb 0 } }" "the bokeh pigment is black all over the lens"
 	refused two_planes "lens_tilt 3 focal_plane_tilt 3" "$at_origin" "each state the plane of focus; give one of them"
 	;;
 empty)

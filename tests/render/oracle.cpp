@@ -25,10 +25,9 @@ namespace fs = std::filesystem;
 // Limits of the RMS difference, those of the project. 1024 frames leave the oracle an error of 0.0007 to 0.0016 of its
 // own, and the camera's samples about as much. They catch a mirrored tilt (0.012 to 0.035), but a lens 5 % too wide
 // (0.0023) or a shift of 0.1 pixel (0.0029) hides in the noise. Means over 4 x 4 pixels have less of it: right 0.0003
-// to 0.0007; too wide 0.0011 to 0.0025, shifted 0.0012 to 0.0016.
+// to 0.0007; too wide 0.0011 to 0.0025, shifted 0.0012 to 0.0016: Camera::cell_limit.
 double Limit(int samples) { return samples >= 1024 ? 0.004 : 0.006; }
 constexpr int CELL = 4;
-constexpr double CELL_LIMIT = 0.001;
 
 // Pixels that look along or behind the lens plane must be black, and are left out with the pixels beside them: stock
 // sees something there.
@@ -65,8 +64,8 @@ bool Compare(const Camera& camera, Picture truth, const fs::path& scene, const f
 	const double rms = RmsDifference(picture, truth), limit = Limit(samples);
 	const double cell_rms = RmsDifference(Coarser(picture, CELL), Coarser(truth, CELL));
 	std::printf("%s: %d samples: RMS difference %.5f (limit %.5f), of %d x %d means %.5f (limit %.5f)\n", camera.name.c_str(),
-		samples, rms, limit, CELL, CELL, cell_rms, CELL_LIMIT);
-	return rms <= limit && cell_rms <= CELL_LIMIT && AllFinite(picture) && empty_is_black;
+		samples, rms, limit, CELL, CELL, cell_rms, camera.cell_limit);
+	return rms <= limit && cell_rms <= camera.cell_limit && AllFinite(picture) && empty_is_black;
 }
 
 }

@@ -182,6 +182,54 @@ void AddHard(std::vector<Camera>& cameras)
 	cameras.push_back(grazing);
 }
 
+// Effects that stock POV-Ray can show too: from chosen lens points, through a rim that stands before the lens, or
+// one colour at a time.
+void AddEffects(std::vector<Camera>& cameras)
+{
+	Camera blades = Case("blades", 60, 0);
+	blades.blades = 5;
+	blades.blade_rotation = 20;
+	blades.effects = "blades 5 rotation 20";
+	blades.samples = 256;
+	cameras.push_back(blades);
+
+	// At the picture's edges the lens is half covered, in its corners more.
+	Camera cat_eye = Case("cat-eye", 12, 180);
+	cat_eye.tilts_lens = true;
+	cat_eye.rim_radius = 0.25;
+	cat_eye.rim_distance = 0.7;
+	cat_eye.effects = "vignetting optical 0.25, 0.7";
+	cat_eye.samples = 256;
+	cameras.push_back(cat_eye);
+
+	// Coarse enough to show: the colours part by up to 3 pixels, and their planes of focus lie at 1/(1/8 + A).
+	Camera chromatic = Case("chromatic", 10, 40);
+	chromatic.tilts_lens = true;
+	chromatic.lateral[0] = -0.015;
+	chromatic.lateral[2] = 0.02;
+	chromatic.axial[0] = -0.03;
+	chromatic.axial[2] = 0.06;
+	chromatic.effects = "chromatic lateral -0.015, 0.02 axial -0.03, 0.06";
+	chromatic.samples = 256;
+	chromatic.frames = 256; // three times
+	cameras.push_back(chromatic);
+
+	Camera together = blades;
+	together.name = "effects-together";
+	together.frames = 256;
+	together.cell_limit = 0.0022; // the rim's hard edge in so few frames: 0.0017; 1024 frames of twice the aperture: 0.0007
+	together.rim_radius = 0.25;
+	together.rim_distance = 0.6;
+	together.aperture_diameter = 0.2; // less noise, so that fewer frames do
+	for (int c : {0, 2})
+	{
+		together.lateral[c] = -chromatic.lateral[c];
+		together.axial[c] = -chromatic.axial[c];
+	}
+	together.effects = "vignetting optical 0.25, 0.6 blades 5 rotation 20 chromatic lateral 0.015, -0.02 axial 0.03, -0.06";
+	cameras.push_back(together);
+}
+
 }
 
 std::vector<Camera> OracleCameras()
@@ -190,6 +238,7 @@ std::vector<Camera> OracleCameras()
 	AddPromised(cameras);
 	AddOtherWords(cameras);
 	AddHard(cameras);
+	AddEffects(cameras);
 	return cameras;
 }
 

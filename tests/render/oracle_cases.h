@@ -27,6 +27,14 @@ struct Camera
 	double up_x = 0, centre_x = 0, centre_y = 0;
 	std::string moves; // transformations, as SDL
 
+	// Effects. Blades have straight edges; the tilt is then about the x axis, so that the lens's own axes are plain.
+	int blades = 0;
+	double blade_rotation = 0; // degrees
+	double rim_radius = 0, rim_distance = 0; // a second rim before the lens; 0: none
+	double lateral[3] = {0, 0, 0}, axial[3] = {0, 0, 0}; // red, green, blue
+	bool Splits() const { return lateral[0] != 0 || axial[0] != 0; }
+	std::string effects; // the same in words
+
 	// More than one way to say it. `words`: the whole block, and `outside`: camera words, instead of those that follow
 	// from the numbers above. `scene`: the scene's placement. The picture to compare with is then that of another case,
 	// which is the same plane, or its mirror image.
@@ -39,7 +47,9 @@ struct Camera
 
 	const std::string& Truth() const { return truth_of.empty() ? name : truth_of; }
 	// Of 240 x 180 pixels; about as many frames of its own as the samples need.
-	int Frames() const { return samples >= 1024 ? 1024 : 512; }
+	double cell_limit = 0.001; // oracle.cpp
+	int frames = 0; // 0: as below
+	int Frames() const { return frames > 0 ? frames : samples >= 1024 ? 1024 : 512; }
 };
 
 // All the cases; throws std::runtime_error for an unknown name.

@@ -48,33 +48,74 @@ double RadicalInverse(int base, int i)
 	return value;
 }
 
-// The pinhole camera of frame i: location, direction, right, up, in the camera's own frame.
-std::array<Vector, 4> Pinhole(const Camera& camera, int i)
+// Whether a point of the lens, right and up of its centre, lies within the blades' polygon.
+bool WithinBlades(const Camera& camera, double x, double y)
+{
+	for (int k = 0; k < camera.blades; ++k)
+	{
+		const double azimuth = Radians(camera.blade_rotation) + (2 * k + 1) * PI / camera.blades;
+		if (x * std::sin(azimuth) + y * std::cos(azimuth) > camera.aperture_diameter / 2 * std::cos(PI / camera.blades))
+			return false;
+	}
+	return true;
+}
+
+// Points that fill the lens evenly, one a frame.
+std::vector<Vector> LensPoints(const Camera& camera, int frames)
 {
 	const Lens lens = LensOf(camera);
-	const Vector first = Unit(Cross(lens.n, {0.36, 0.48, 0.8})), second = Cross(lens.n, first);
-	const double radius = camera.aperture_diameter / 2 * std::sqrt(RadicalInverse(2, i));
-	const double turn = 2 * PI * RadicalInverse(3, i);
-	const Vector S = Plus(Times(first, radius * std::cos(turn)), Times(second, radius * std::sin(turn)));
+	const Vector first = camera.blades > 0 ? Vector{1, 0, 0} : Unit(Cross(lens.n, {0.36, 0.48, 0.8}));
+	const Vector second = Cross(lens.n, first);
+	std::vector<Vector> points;
+	for (int i = 1; int(points.size()) < frames; ++i)
+	{
+		const double radius = camera.aperture_diameter / 2 * std::sqrt(RadicalInverse(2, i)), turn = 2 * PI * RadicalInverse(3, i);
+		const double x = radius * std::cos(turn), y = radius * std::sin(turn);
+		if (WithinBlades(camera, x, y))
+			points.push_back(Plus(Times(first, x), Times(second, y)));
+	}
+	return points;
+}
+
+// The pinhole camera of frame i (from 1 on) through lens point S in one colour: location, direction, right, up, in
+// the camera's own frame.
+std::array<Vector, 4> Pinhole(const Camera& camera, int colour, const Vector& S, int i)
+{
+	const Lens lens = LensOf(camera, colour);
 
 	// The shift inside the pixel makes the mean a box filter over it, as the camera's own samples are.
 	const auto [centre, right, up] = Window(camera);
 	const Vector direction = Plus(centre, Plus(Times(right, (RadicalInverse(5, i) - 0.5) / WIDTH),
 		Times(up, (RadicalInverse(7, i) - 0.5) / HEIGHT)));
-	const auto M = [&](const Vector& v) { return Plus(v, Times(S, -Dot(lens.q, v))); };
+	// A colour whose image is larger shows less of the scene: across the lens axis by that much.
+	const auto L = [&](const Vector& v) {
+		const Vector along = Times(lens.n, Dot(v, lens.n));
+		return Plus(along, Times(Plus(v, Times(along, -1)), 1 / (1 + camera.lateral[colour])));
+	};
+	const auto M = [&](const Vector& v) { return Plus(L(v), Times(S, -Dot(lens.q, L(v)))); };
 	return {S, M(direction), M(right), M(up)};
 }
 
+// The second rim as a thing of the scene, in the camera's own frame: seen directly only, black, and wide.
+std::string Rim(const Camera& camera)
+{
+	if (camera.rim_radius == 0)
+		return "";
+	const Vector n = LensOf(camera).n;
+	return "disc { " + Sdl(Times(n, camera.rim_distance)) + ", " + Sdl(n) + ", 50, " + Sdl(camera.rim_radius) +
+		" pigment { rgb 0 } finish { ambient 0 diffuse 0 } no_shadow no_reflection " + Placement(camera) + camera.moves + " }\n";
+}
+
 // The sum of a batch of pinhole pictures, rendered as one animation in a folder of its own.
-Picture SumOfPinholes(const Camera& camera, const fs::path& scene, const fs::path& work, const std::string& stock,
-	int first, int frames)
+Picture SumOfPinholes(const Camera& camera, int colour, const fs::path& scene, const fs::path& work, const std::string& stock,
+	const std::vector<Vector>& lens_points, int first, int frames)
 {
 	fs::create_directories(work);
 	std::ofstream file(work / "frames.pov");
-	file << "#include \"" << scene.string() << "\"\n#declare Frames = array[" << frames << "][4] {\n";
+	file << "#include \"" << scene.string() << "\"\n" << Rim(camera) << "#declare Frames = array[" << frames << "][4] {\n";
 	for (int i = first; i < first + frames; ++i)
 	{
-		const auto frame = Pinhole(camera, i);
+		const auto frame = Pinhole(camera, colour, lens_points[std::size_t(i - 1)], i);
 		file << "\t{" << Sdl(frame[0]) << ", " << Sdl(frame[1]) << ", " << Sdl(frame[2]) << ", " << Sdl(frame[3]) << "},\n";
 	}
 	file << "}\n#declare F = frame_number - 1;\ncamera { perspective location Frames[F][0] direction Frames[F][1]"
@@ -101,8 +142,16 @@ Picture SumOfPinholes(const Camera& camera, const fs::path& scene, const fs::pat
 }
 
 // DESIGN section 2. The plane recedes towards (sin phi, cos phi); the lens normal follows from n/f = q + e_z/w.
-Lens LensOf(const Camera& camera)
+Lens LensOf(const Camera& camera, int colour)
 {
+	// A colour for which the lens has more power: n/f grows along n, and q with it.
+	if (camera.axial[colour] != 0)
+	{
+		Camera green = camera;
+		green.axial[colour] = 0;
+		const Lens lens = LensOf(green, colour);
+		return {Plus(lens.q, Times(lens.n, camera.axial[colour])), lens.n};
+	}
 	const double phi = Radians(camera.tilt_direction), tilt = Radians(camera.tilt);
 	const double U = camera.focal_distance, w = camera.image_distance;
 	if (camera.tilts_lens)
@@ -144,13 +193,14 @@ int Seen(const Camera& camera, int x, int y)
 
 // The mean, and from the difference of its two halves the error that it may have itself. The halves follow each other
 // in Halton's sequence; odd and even would be the inner and the outer half of the lens.
-Picture MeanOfPinholes(const Camera& camera, const fs::path& scene, const fs::path& work, const std::string& stock,
+static Picture MeanInColour(const Camera& camera, int colour, const fs::path& scene, const fs::path& work, const std::string& stock,
 	int frames, double& standard_error)
 {
+	const std::vector<Vector> lens_points = LensPoints(camera, frames);
 	std::vector<std::future<Picture>> batches;
 	for (int b = 0; b < PROCESSES; ++b)
-		batches.push_back(std::async(std::launch::async, SumOfPinholes, camera, scene, work / ("batch" + std::to_string(b)),
-			stock, 1 + b * (frames / PROCESSES), frames / PROCESSES));
+		batches.push_back(std::async(std::launch::async, SumOfPinholes, camera, colour, scene, work / ("batch" + std::to_string(b)),
+			stock, lens_points, 1 + b * (frames / PROCESSES), frames / PROCESSES));
 	Picture halves[2];
 	for (int b = 0; b < PROCESSES; ++b)
 	{
@@ -167,6 +217,26 @@ Picture MeanOfPinholes(const Camera& camera, const fs::path& scene, const fs::pa
 	return halves[0];
 }
 
+// A camera whose lens treats colours differently takes one mean for each.
+Picture MeanOfPinholes(const Camera& camera, const fs::path& scene, const fs::path& work, const std::string& stock,
+	int frames, double& standard_error)
+{
+	if (camera.Splits())
+	{
+		Picture all;
+		for (int colour = 0; colour < 3; ++colour)
+		{
+			const Picture one = MeanInColour(camera, colour, scene, work, stock, frames, standard_error);
+			if (colour == 0)
+				all = one;
+			for (std::size_t k = std::size_t(colour); k < all.rgb.size(); k += 3)
+				all.rgb[k] = one.rgb[k];
+		}
+		return all;
+	}
+	return MeanInColour(camera, 1, scene, work, stock, frames, standard_error);
+}
+
 std::string SceneWithTiltLens(const Camera& camera, const fs::path& scene, int samples)
 {
 	std::string words = camera.words;
@@ -176,7 +246,7 @@ std::string SceneWithTiltLens(const Camera& camera, const fs::path& scene, int s
 		words = "focal_distance " + Sdl(camera.focal_distance) + " tilt_direction " + Sdl(camera.tilt_direction) +
 			(camera.tilts_lens ? " lens_tilt " : " focal_plane_tilt ") + Sdl(camera.tilt);
 	if (camera.words.empty())
-		words += " image_distance " + Sdl(camera.image_distance) + " aperture_diameter " + Sdl(camera.aperture_diameter);
+		words += " image_distance " + Sdl(camera.image_distance) + " aperture_diameter " + Sdl(camera.aperture_diameter) + " " + camera.effects;
 
 	std::string text;
 	if (!camera.scene.empty())

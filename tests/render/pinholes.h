@@ -21,8 +21,8 @@ struct Lens
 	Vector n; // lens normal
 };
 
-// Camera frame: x right, y up, z along the axis, left-handed.
-Lens LensOf(const Camera& camera);
+// Camera frame: x right, y up, z along the axis, left-handed. Colour 0 red, 1 green, which stands for all, 2 blue.
+Lens LensOf(const Camera& camera, int colour = 1);
 
 // A point of the camera frame, in the world. Without the camera's `moves`.
 Vector InWorld(const Camera& camera, const Vector& point);

@@ -1,0 +1,149 @@
+#!/bin/sh
+# Effects by pictures that stock POV-Ray makes of their definition, or that must be the same (common.sh). Blades, the
+# rim of vignetting optical and chromatic aberration through an opening are in oracle_cases.cpp.
+. "$(dirname "$0")/common.sh"
+
+# camera NAME BLOCK OUTSIDE [SCENE]: with tilt_lens.
+world='#include "oracle-scene.inc"'
+tilted_camera() {
+	printf '%s\n' "$world" "camera { tilt_lens { $2 } $view $3 }" > "$1.pov"
+}
+picture() {
+	name=$1
+	shift
+	tilted_camera "$name" "$1" "$2"
+	shift 2
+	render "$ours" "$name.exr" "$name.pov" "$@"
+}
+
+case $case in
+natural)
+	# An even background: what is left is the fall-off. Stock draws it as a pigment on a wall at depth 1000: the angles
+	# to the sensor's normal and to the lens's, which leans by 20 degrees, from the directions themselves.
+	cat > truth.pov <<- END
+		#version 3.7;
+		global_settings { assumed_gamma 1 }
+		#declare NY = -sin(radians(20)); #declare NZ = cos(radians(20));
+		#declare Sensor = function(X, Y) { cos(atan2(sqrt(X * X + Y * Y), 1)) }
+		#declare Lens = function(X, Y) { cos(acos((Y * NY + NZ) / sqrt(X * X + Y * Y + 1))) }
+		#declare Falloff = function(X, Y) { Lens(X, Y) * pow(Sensor(X, Y) / NZ, 3) }
+		plane { -z, -1000 pigment { function { 0.5 * Falloff(x / 1000, y / 1000) } color_map { [0 rgb 0] [1 rgb 1] } } finish { emission 1 ambient 0 diffuse 0 } }
+		camera { perspective right x * 4 / 3 up y direction z * 0.9 }
+	END
+	render "$stock" truth.exr truth.pov
+	for aperture in 0 0.2; do
+		printf '%s\n' '#version 3.7; global_settings { assumed_gamma 1 } background { rgb 0.5 }' "camera { tilt_lens { lens_tilt 20 focal_distance 5
+			image_distance 0.9 aperture_diameter $aperture vignetting natural } right x * 4 / 3 up y direction z * 0.9 blur_samples 64 variance 0 }" > natural.pov
+		render "$ours" natural.exr natural.pov
+		# Half floats hold eleven bits: 0.00012 RMS at 0.5.
+		check "aperture $aperture" "$compare" rms 0.0004 truth.exr natural.exr
+	done
+	# Which the fourth power of the cosine to the lens axis is not.
+	sed 's/#declare Falloff.*/#declare Falloff = function(X, Y) { pow(Lens(X, Y), 4) }/' truth.pov > fourth.pov
+	render "$stock" fourth.exr fourth.pov
+	check "is not cos^4 to the lens axis" "$compare" differ 0.01 fourth.exr natural.exr
+	;;
+rim)
+	# The rim as a thing of the scene, before the same lens: the same samples, so the same pixels.
+	words='lens_tilt 12 tilt_direction 40 focal_distance 8 aperture_diameter 0.4'
+	picture rim "$words vignetting optical 0.25, 0.7" 'blur_samples 64 variance 0'
+	# n = (-sin 40 sin 12, -cos 40 sin 12, cos 12) in the camera frame, which look_at turns about x by 8.38 degrees.
+	cat > real.pov <<- END
+		#include "oracle-scene.inc"
+		#declare View = transform { rotate x * degrees(atan2(2.6 - 1.2, 9.5)) translate <0, 2.6, -3.5> }
+		#declare N = <-sin(radians(40)) * sin(radians(12)), -cos(radians(40)) * sin(radians(12)), cos(radians(12))>;
+		disc { 0.7 * N, N, 50, 0.25 pigment { rgb 0 } finish { ambient 0 diffuse 0 } no_shadow no_reflection transform { View } }
+		camera { tilt_lens { $words } $view blur_samples 64 variance 0 }
+	END
+	render "$ours" real.exr real.pov
+	# Rays that just graze the rim may round either way: a few pixels by a sixty-fourth.
+	check "a real rim" "$compare" rms 0.0004 real.exr rim.exr
+	picture open "$words" 'blur_samples 64 variance 0'
+	check "is seen" "$compare" differ 0.05 open.exr rim.exr
+	;;
+bokeh)
+	# A round white pigment is the round opening: 0.0025 RMS is what two sets of 512 samples differ by.
+	lens="focal_plane_tilt 30 focal_distance 8 aperture_diameter 0.4"
+	round='bokeh { pigment { cylindrical scale 0.5 rotate 90 * x translate <0.5, 0.5, 0> color_map { [0.001 rgb 0] [0.001 rgb 1] } } }'
+	picture disc "$lens" 'blur_samples 512 variance 0'
+	picture round "$lens" "blur_samples 512 variance 0 $round"
+	check "a round pigment is the disc, and its exposure" "$compare" rms 0.005 disc.exr round.exr
+	picture square "$lens" "blur_samples 256 variance 0 bokeh { pigment { rgb 1 } }"
+	picture grey "$lens" "blur_samples 256 variance 0 bokeh { pigment { rgb 0.3 } }"
+	check "grey is no darker" "$compare" rms 2e-4 square.exr grey.exr
+	check "a square is not a disc" "$compare" differ 0.004 disc.exr square.exr
+	# Off the centre the picture would move: the same pigment, half a lens to the side.
+	picture aside "$lens" "blur_samples 512 variance 0 $(echo "$round" | sed 's/translate <0.5/translate <0.9/')"
+	check "is centred" "$compare" differ 0.01 disc.exr aside.exr
+	# Blades cut the pigment's square: white all over is the blades alone, point by point.
+	picture blades "$lens blades 6 rotation 10" 'blur_samples 64 variance 0'
+	picture painted "$lens blades 6 rotation 10" 'blur_samples 64 variance 0 bokeh { pigment { rgb 1 } }'
+	check "white blades" "$compare" rms 1e-4 blades.exr painted.exr
+	grep -q 'Effects: *blades, bokeh' painted.exr.log || fail "the statistics do not name blades, bokeh"
+	;;
+chromatic)
+	# Without an opening: three separate renders by stock, whose windows are 1 / (1 + C) as large, a colour of each.
+	picture all 'chromatic lateral -0.02, 0.03' ''
+	for colour in 'red 1/0.98' 'green 1' 'blue 1/1.03'; do
+		set -- $colour
+		printf '%s\n' "$world" "camera { perspective location <0, 2.6, -3.5> right x * 4 / 3 * $2 up y * $2 direction z * 1.5 look_at <0, 1.2, 6> }" > $1.pov
+		render "$stock" $1.exr $1.pov
+	done
+	check "three renders, a colour of each" "$compare" channels 0.002 red.exr green.exr blue.exr all.exr
+	check "colours part" "$compare" differ 0.02 green.exr all.exr
+	;;
+pupils)
+	# Untilted, nothing of it is seen; tilted, it is a keystone: the same picture by stock, whose window is put through
+	# the pupils by hand. w = 1.5, M = 1.3, lens normal N.
+	lens='focal_distance 8 image_distance 1.5'
+	picture none "$lens" ''
+	picture upright "$lens pupil_magnification 1.3" ''
+	check "untilted" "$compare" rms 0.0006 none.exr upright.exr
+	picture tilted "$lens lens_tilt 12 pupil_magnification 1.3" ''
+	cat > truth.pov <<- END
+		#include "oracle-scene.inc"
+		#declare N = <0, -sin(radians(12)), cos(radians(12))>;
+		// A sensor's point seen from the exit pupil, 1.3 * 1.5 before it; the scene's side has 1.3 times its tangents to N.
+		#macro Before(V) #local D = vdot(V, N); (1.3 * (V - D * N) + D * N) #end
+		camera { perspective location 0 direction Before(<0, 0, 1.3 * 1.5>) right Before(x * 4 / 3) up Before(y)
+			rotate x * degrees(atan2(2.6 - 1.2, 9.5)) translate <0, 2.6, -3.5> }
+	END
+	render "$stock" truth.exr truth.pov
+	# Directions agree to rounding; at edges of the scene a pixel may fall either way.
+	check "tilted" "$compare" rms 0.002 truth.exr tilted.exr
+	check "is seen" "$compare" differ 0.02 none.exr tilted.exr
+	;;
+alpha)
+	# What vignetting keeps back is not taken from what stands behind the picture: alpha stays what it is.
+	world='#version 3.7; global_settings { assumed_gamma 1 } box { <-1, -4, 7>, <9, 9, 8> pigment { rgb 0.7 } finish { emission 1 diffuse 0 } }'
+	view='right x * 4 / 3 up y direction z * 0.9'
+	lens='focal_distance 6 aperture_diameter 0.8'
+	picture plain "$lens" 'blur_samples 1024 variance 0' +UA
+	picture dark "$lens vignetting natural optical 0.6, 1" 'blur_samples 1024 variance 0' +UA
+	check "vignetting darkens" "$compare" differ 0.05 plain.exr dark.exr
+	# The box's blurred edge lies elsewhere in a lens that is half covered: 0.03 there; all else within rounding.
+	check "alpha is not darkened" "$compare" alpha 0.01 plain.exr dark.exr
+	picture pinhole 'vignetting natural' '' +UA
+	picture sharp '' '' +UA
+	check "nor by a pinhole's" "$compare" alpha 1e-6 sharp.exr pinhole.exr
+	;;
+statistics)
+	picture all 'shift <0.05, 0.1> focal_distance 8 distortion -0.02 blades 7 field_curvature 0.02 vignetting natural optical 0.9, 0.5
+		chromatic lateral 0.001, -0.001 axial 0.002, -0.001 pupil_magnification 1.1' 'aperture 0.4 blur_samples 16 variance 0'
+	text=$(sed -n '/^Effects:/,/^[A-Z][a-z]*\/Pixel/p' all.exr.log | tr -s ' \n' '  ')
+	wanted='Effects: shift, pupil_magnification, chromatic lateral, distortion, blades, field_curvature, chromatic axial, vignetting natural, vignetting optical'
+	case $text in
+		"$wanted"*) echo "$text" ;;
+		*) fail "the statistics say '$text'" ;;
+	esac
+	# All of them adapt, and give the same pixels whatever the threads.
+	picture one 'focal_distance 8 distortion -0.02 blades 7 vignetting natural optical 0.9, 0.5 chromatic lateral 0.001, -0.001' \
+		'aperture 0.4 blur_samples 16, 128 variance 1/4000' +WT1
+	render "$ours" two.exr one.pov +WT2
+	check "two threads" "$compare" same one.exr two.exr
+	;;
+*)
+	fail "no case '$case'"
+	;;
+esac
+finish
