@@ -102,6 +102,14 @@ struct Edge
 	}
 };
 
+/// A part of a photograph that is evenly bright: no blurred edge reaches it.
+struct BrightPatch
+{
+	double u = 0, v = 0;               ///< its centre, px
+	double value = 0, sigma = 0;       ///< mean brightness, linear light
+	double board_column = 0, board_row = 0;   ///< the same place on the board, in squares or spacings
+};
+
 /// Everything measured in one photograph. Corners row by row: index row * InnerColumns + column;
 /// circles: j * columns + i.
 struct Photo
@@ -114,6 +122,8 @@ struct Photo
 	bool bright_circles = false; ///< white on dark
 	int edges_dropped = 0;       ///< blurred beyond measuring, or not fitted
 	double saturated_share = 0;  ///< edges whose bright side is clipped
+	std::vector<BrightPatch> white;   ///< of the board (bright_patches.h)
+	int white_saturated = 0;     ///< patches left out because they are clipped
 };
 
 /// Edge::BlurRatio of the edges of a photograph; all 0 when it has none.

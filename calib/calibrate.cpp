@@ -6,9 +6,11 @@
 #include "exif_check.h"
 #include "files.h"
 #include "measure.h"
+#include "robust.h"
 #include "solve_blur.h"
 #include "solve_geometry.h"
 #include "solve_joint.h"
+#include "vignetting.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -70,8 +72,7 @@ void WarnOfOddPhotos(const Task& task, const Geometry& g)
 	std::vector<double> all;
 	for (const auto& state : g.photo_rms)
 		all.insert(all.end(), state.begin(), state.end());
-	std::nth_element(all.begin(), all.begin() + long(all.size() / 2), all.end());
-	const double median = all[all.size() / 2];
+	const double median = Median(all);
 	for (size_t s = 0; s < g.photo_rms.size(); ++s)
 		for (size_t p = 0; p < g.photo_rms[s].size(); ++p)
 			if (g.photo_rms[s][p] > 5 * median + 0.3)
@@ -230,6 +231,10 @@ Calibration Calibrate(const Task& task, const std::string& model, Poses poses, R
 	}
 	if (model == "paper")
 		c.solution = c.render = c.paper;
+	spdlog::info("DEBUG {:.2f}", double(clock())/CLOCKS_PER_SEC);
+	c.vignetting = EstimateVignetting(c);
+	for (const FalloffAnswer& a : c.vignetting.answers)
+		spdlog::info("DEBUG {:.2f} vignetting R {:.3f} +- {:.3f} Z {:.3f} +- {:.3f} dark {:.4f} +- {:.4f} rms {:.4f} held out {:.4f}  n {}", double(clock())/CLOCKS_PER_SEC, a.radius_mm.value, a.radius_mm.sigma, a.distance_mm.value, a.distance_mm.sigma, a.darkening.value, a.darkening.sigma, a.rms, a.held_out, a.points.size());
 	return c;
 }
 

@@ -12,6 +12,7 @@
 #include "lens_model.h"
 #include "priors.h"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,14 @@ struct State
 	std::vector<Photo> photos;
 };
 
+/// A photograph of an evenly lit plain surface (bright_patches.h).
+struct FlatField
+{
+	size_t state = 0;
+	std::string file;
+	std::vector<BrightPatch> patches;
+};
+
 struct Task
 {
 	Board board;
@@ -39,6 +48,7 @@ struct Task
 	int width = 0, height = 0;
 	std::vector<State> states;     ///< untilted first
 	std::vector<Prior> priors;     ///< what is known beforehand
+	std::vector<FlatField> flat_fields;
 };
 
 /// Where the boards and the sensor are. Indices: state, then photo.
@@ -109,6 +119,43 @@ struct GeometryAlone
 	Estimate pupil_magnification;
 };
 
+/// Of one patch: the angle between its direction and the lens axis, and the light that is left of it, exposure and gradient of the
+/// lighting taken out.
+struct FalloffPoint
+{
+	size_t state = 0;
+	double angle_deg = 0, measured = 0, model = 0;
+};
+
+/// The exposure of a photograph, or of a flat field with `photo` its index in Task::flat_fields: the white's value on the lens axis.
+struct FalloffGain
+{
+	size_t state = 0, photo = 0;
+	double gain = 0;
+};
+
+/// What a fit with some of the two kinds of vignetting finds (vignetting.h).
+struct FalloffAnswer
+{
+	bool fitted = false;
+	bool rim_seen = false;               ///< without it the rim cuts nothing, and its numbers are 0
+	Estimate radius_mm, distance_mm;     ///< of the rim
+	Estimate darkening;                  ///< what the rim takes of the patch that it darkens most, 0..1
+	double rms = 0, held_out = 0;        ///< of the logarithm of the brightness; 0: there is nothing to leave out
+	std::vector<FalloffGain> gains;
+	std::vector<FalloffPoint> points;
+};
+
+/// Index of Vignetting::answers.
+inline size_t FalloffKind(bool natural, bool optical) { return (natural ? 1u : 0u) + (optical ? 2u : 0u); }
+
+struct Vignetting
+{
+	std::string failure;      ///< why nothing can be said; empty when something can
+	bool flat_field = false;  ///< told by flat fields, not by the board
+	std::array<FalloffAnswer, 4> answers;   ///< by FalloffKind
+};
+
 struct Calibration
 {
 	Task task;
@@ -121,6 +168,7 @@ struct Calibration
 	std::vector<Solution> compared;   ///< CompareExact's, when the model was to be chosen; else empty
 	Solution paper;              ///< the paper's model, always
 	Geometry paper_geometry;     ///< poses of the paper's stage 1
+	Vignetting vignetting;
 };
 
 }

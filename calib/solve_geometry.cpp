@@ -3,6 +3,7 @@
 #include "solve_geometry.h"
 
 #include "error.h"
+#include "robust.h"
 
 #include <ceres/ceres.h>
 #include <fmt/format.h>
@@ -183,7 +184,7 @@ bool Sigmas(ceres::Problem& problem, Geometry& g)
 	return true;
 }
 
-/// 1.4826 median |residual| of the coordinates: what the model leaves out, or the noise.
+/// RobustSigma of the coordinates: what the model leaves out, or the noise.
 double ModelSigma(const Task& task, const Geometry& g)
 {
 	std::vector<double> r;
@@ -192,11 +193,10 @@ double ModelSigma(const Task& task, const Geometry& g)
 			for (const Corner& c : task.states[s].photos[p].corners)
 			{
 				const Point at = Reproject(task, g, s, p, c.column, c.row);
-				r.push_back(std::abs(at[0] - c.x));
-				r.push_back(std::abs(at[1] - c.y));
+				r.push_back(at[0] - c.x);
+				r.push_back(at[1] - c.y);
 			}
-	std::nth_element(r.begin(), r.begin() + long(r.size() / 2), r.end());
-	return std::max(1.4826 * r[r.size() / 2], 1e-4);
+	return std::max(RobustSigma(std::move(r)), 1e-4);
 }
 
 /// Fixes the principal points that the photographs leave open. True: some were fixed.
