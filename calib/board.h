@@ -7,6 +7,7 @@
 
 #include "exif.h"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -110,6 +111,14 @@ struct BrightPatch
 	double board_column = 0, board_row = 0;   ///< the same place on the board, in squares or spacings
 };
 
+/// The same part of an edge in the three colours.
+struct ColourEdge
+{
+	Edge green;                        ///< without its profile
+	std::array<double, 2> shift{}, shift_sigma{};     ///< red's and blue's place minus green's along green's normal, px
+	std::array<double, 2> widening{}, widening_sigma{};   ///< red's and blue's blur minus green's, px
+};
+
 /// Everything measured in one photograph. Corners row by row: index row * InnerColumns + column;
 /// circles: j * columns + i.
 struct Photo
@@ -124,6 +133,8 @@ struct Photo
 	double saturated_share = 0;  ///< edges whose bright side is clipped
 	std::vector<BrightPatch> white;   ///< of the board (bright_patches.h)
 	int white_saturated = 0;     ///< patches left out because they are clipped
+	bool coloured = false;       ///< the channels differ
+	std::vector<ColourEdge> colours;   ///< of some edges (measure_colours.h)
 };
 
 /// Edge::BlurRatio of the edges of a photograph; all 0 when it has none.

@@ -2,9 +2,12 @@
 
 #include "calibrate.h"
 
+#include "bright_patches.h"
+#include "chromatic_fit.h"
 #include "error.h"
 #include "exif_check.h"
 #include "files.h"
+#include "image_io.h"
 #include "measure.h"
 #include "robust.h"
 #include "solve_blur.h"
@@ -110,13 +113,15 @@ bool PosesAreShared(const Task& task, const std::vector<Vec3<double>>& normals, 
 
 /// The exact model. The distortion turns with the lens, so lens and geometry are solved
 /// in turn: the lens moves the distortion's axis, the geometry hardly moves the lens.
-void SolveExact(const Task& task, const std::string& model, Poses poses, Calibration& c)
+void SolveExact(const Task& task, const std::string& model, Poses poses, const EffectChoice& effects, Calibration& c)
 {
 	auto solve = model == "rigid" ? SolveRigid : model == "curved" ? SolveCurved : SolvePlane;
 	spdlog::info("solving geometry and lens ({})", model == "auto" ? "plane" : model);
-	c.geometry = SelectGeometry(task, {});
+	GeometryOptions options;
+	options.may_distort = !effects.Excludes("distortion");
+	c.geometry = SelectGeometry(task, options);
 	c.solution = solve(task, c.geometry);
-	GeometryOptions options{ 0, LensNormals(c.solution), false };
+	options.lens_normal = LensNormals(c.solution);
 	options.shared_poses = PosesAreShared(task, options.lens_normal, poses);
 	for (int round = 0; round < 2; ++round)
 	{
@@ -130,7 +135,7 @@ void SolveExact(const Task& task, const std::string& model, Poses poses, Calibra
 		c.compared = CompareExact(task, c.geometry);
 		const Solution& plane = c.compared[1];
 		const Solution& curved = c.compared[2];
-		if (CurvatureIsSeen(plane, curved))
+		if (CurvatureIsSeen(plane, curved) || (effects.Wants("field_curvature") && curved.failure.empty()))
 		{
 			solve = SolveCurved;
 			options.lens_normal = LensNormals(curved);
@@ -143,6 +148,24 @@ void SolveExact(const Task& task, const std::string& model, Poses poses, Calibra
 	}
 	c.pinhole = SolveGeometry(task, { 0, {}, options.shared_poses });
 	c.render = c.geometry.distortion_terms ? solve(task, c.pinhole) : c.solution;
+}
+
+/// The model to solve where the effects asked for leave no choice. Throws UsageError where they contradict --model.
+std::string ModelFor(const std::string& model, const EffectChoice& effects)
+{
+	if (!effects.Excludes("field_curvature"))
+		return model;
+	if (model == "curved")
+		throw UsageError("--model curved has field curvature: add field_curvature to --effects, or leave out --model");
+	return model == "auto" ? "plane" : model;
+}
+
+void LogEffects(const Calibration& c)
+{
+	if (!c.vignetting.failure.empty())
+		spdlog::info("vignetting not estimated: {}", c.vignetting.failure);
+	if (!c.chromatic.failure.empty())
+		spdlog::info("chromatic aberration not estimated: {}", c.chromatic.failure);
 }
 
 /// Joint refinement; what blur alone and geometry alone say of the tilt is kept.
@@ -193,13 +216,24 @@ Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, doubl
 	return task;
 }
 
-Calibration Calibrate(const Task& task, const std::string& model, Poses poses, Refinement refinement)
+void AddFlatField(Task& task, size_t state, const std::string& file, const Transfer& transfer)
+{
+	const cv::Mat picture = ReadLinear(file, transfer);
+	if (picture.cols != task.width || picture.rows != task.height)
+		throw Refused(fmt::format("--flat-field {}: is {}x{} pixels, the photographs of the board are {}x{}; all must come from the same camera, uncropped and not turned",
+			file, picture.cols, picture.rows, task.width, task.height));
+	task.flat_fields.push_back({ state, file, MeasureFlatField(picture, file) });
+	spdlog::info("{}: flat field of state {}, {} cells", file, task.states[state].name, task.flat_fields.back().patches.size());
+}
+
+Calibration Calibrate(const Task& task, const std::string& wanted_model, Poses poses, Refinement refinement, const EffectChoice& effects)
 {
 	Calibration c;
 	c.task = task;
+	const std::string model = ModelFor(wanted_model, effects);
 	if (model != "paper")
 	{
-		SolveExact(task, model, poses, c);
+		SolveExact(task, model, poses, effects, c);
 		Refine(task, refinement, c);
 	}
 	else
@@ -231,10 +265,10 @@ Calibration Calibrate(const Task& task, const std::string& model, Poses poses, R
 	}
 	if (model == "paper")
 		c.solution = c.render = c.paper;
-	spdlog::info("DEBUG {:.2f}", double(clock())/CLOCKS_PER_SEC);
 	c.vignetting = EstimateVignetting(c);
-	for (const FalloffAnswer& a : c.vignetting.answers)
-		spdlog::info("DEBUG {:.2f} vignetting R {:.3f} +- {:.3f} Z {:.3f} +- {:.3f} dark {:.4f} +- {:.4f} rms {:.4f} held out {:.4f}  n {}", double(clock())/CLOCKS_PER_SEC, a.radius_mm.value, a.radius_mm.sigma, a.distance_mm.value, a.distance_mm.sigma, a.darkening.value, a.darkening.sigma, a.rms, a.held_out, a.points.size());
+	c.chromatic = EstimateChromatic(c);
+	LogEffects(c);
+	ChooseEffects(effects, c);
 	return c;
 }
 

@@ -14,6 +14,7 @@
 
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tiltcal
@@ -41,6 +42,13 @@ struct FlatField
 	std::vector<BrightPatch> patches;
 };
 
+/// The opening's blades (tilt_lens/blades.h).
+struct FixedBlades
+{
+	int count = 0;                 ///< 0: not known
+	double rotation_deg = 0, curvature = 0;
+};
+
 struct Task
 {
 	Board board;
@@ -49,6 +57,7 @@ struct Task
 	std::vector<State> states;     ///< untilted first
 	std::vector<Prior> priors;     ///< what is known beforehand
 	std::vector<FlatField> flat_fields;
+	FixedBlades blades;            ///< told by --fix; nothing measures them
 };
 
 /// Where the boards and the sensor are. Indices: state, then photo.
@@ -156,6 +165,30 @@ struct Vignetting
 	std::array<FalloffAnswer, 4> answers;   ///< by FalloffKind
 };
 
+/// What the colours of edges tell of chromatic aberration (chromatic_fit.h): index 0 red, 1 blue, each against green.
+struct Chromatic
+{
+	std::string failure;      ///< why nothing can be said; empty when something can
+	int edges = 0;
+	std::array<Estimate, 2> lateral;         ///< C_R, C_B of tilt_lens/chromatic.h
+	std::array<Estimate, 2> axial_per_mm;    ///< A_R, A_B
+	double lateral_held_out_without = 0, lateral_held_out_with = 0;   ///< of an edge's shift, px; 0: there is nothing to leave out
+	double axial_held_out_without = 0, axial_held_out_with = 0;       ///< of an edge's difference in blur width, px
+};
+
+/// An effect of tilt_lens, and whether the camera blocks name it.
+struct Effect
+{
+	std::string name;                        ///< as in --effects
+	std::string failure;                     ///< why it was not estimated; empty when it was
+	bool used = false;
+	std::string why;                         ///< it is written or not
+	std::vector<std::pair<std::string, Estimate>> values;   ///< what a person would ask for
+	double sigmas = 0;                       ///< how many standard deviations it is from nothing; NaN: it has no number of its own
+	double held_out_without = 0, held_out_with = 0;   ///< 0: not known
+	std::string unit;                        ///< of the latter
+};
+
 struct Calibration
 {
 	Task task;
@@ -169,6 +202,8 @@ struct Calibration
 	Solution paper;              ///< the paper's model, always
 	Geometry paper_geometry;     ///< poses of the paper's stage 1
 	Vignetting vignetting;
+	Chromatic chromatic;
+	std::vector<Effect> effects;   ///< effects.h; empty before they are chosen
 };
 
 }

@@ -6,6 +6,7 @@
 #include "error.h"
 #include "image_io.h"
 #include "measure_circles.h"
+#include "measure_colours.h"
 #include "measure_edge.h"
 #include "robust.h"
 #include "spread_order.h"
@@ -282,6 +283,7 @@ Photo MeasurePhoto(const std::string& file, const Board& board, const Transfer& 
 	else
 		MeasureCircles(linear, board, options, photo, choice);
 	MeasureWhite(picture, board, photo);
+	MeasureColours(picture, board, photo);
 	if (grey)
 		*grey = linear;
 	return photo;

@@ -241,6 +241,15 @@ bool Fit(const Task& task, double model_sigma, Geometry& g)
 	return regular;
 }
 
+/// Any coefficient is 2 sigma from 0.
+bool IsDistorted(const Geometry& g)
+{
+	for (size_t k = 0; k < g.distortion.size(); ++k)
+		if (std::abs(g.distortion[k]) > 2 * g.distortion_sigma[k])
+			return true;
+	return false;
+}
+
 }
 
 void HoldDistortion(Geometry& g, ceres::Problem& problem)
@@ -319,11 +328,13 @@ Geometry SelectGeometry(const Task& task, GeometryOptions options)
 {
 	options.terms = 0;
 	Geometry best = SolveGeometry(task, options);
+	if (!options.may_distort)
+		return best;
 	for (const int terms : { 1, 2, 4, 5 })
 	{
 		options.terms = terms;
 		Geometry next = SolveGeometry(task, options);
-		if (next.rms > 0.985 * best.rms)
+		if (next.rms > 0.985 * best.rms || !IsDistorted(next))
 			break;
 		best = next;
 	}

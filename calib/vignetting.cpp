@@ -270,7 +270,6 @@ Vignetting EstimateVignetting(const Calibration& c)
 		result.failure = WhyNothing(c);
 		return result;
 	}
-	if (getenv("EVEN")) data.fit.gradients = false;
 	data.fit.lens_radius = 0.5 * c.solution.aperture_diameter.value;
 	for (const bool natural : { false, true })
 		for (const bool optical : { false, true })
