@@ -128,7 +128,7 @@ std::string Numbers(const Calibration& c, const Solution& solution, const Geomet
 		out += Declare(prefix, "Field_Curvature", solution.field_curvature, "1/mm, of the bowl that the plane of focus touches on the lens axis" + Unused(c, "field_curvature"));
 	out += Declare(prefix, "Psf_Floor", solution.psf_floor_px, "px, the lens's own blur, not rendered");
 	const char* const names[] = { "K1", "K2", "P1", "P2", "K3" };
-	for (size_t k = 0; k < 5 && MainGeometry(c).distortion_terms > 0; ++k)
+	for (size_t k = 0; k < 5 && g.distortion_terms > 0; ++k)
 		out += Declare(prefix, names[k], { g.distortion[k], g.distortion_sigma[k] }, k ? "" : "of the distortion" + Unused(c, "distortion"));
 	out += EffectNumbers(c, prefix);
 	out += fmt::format("#declare {}_Photos = {};\n", prefix, c.task.states[s].photos.size());
