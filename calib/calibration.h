@@ -150,6 +150,8 @@ struct FalloffAnswer
 	bool rim_seen = false;               ///< without it the rim cuts nothing, and its numbers are 0
 	Estimate radius_mm, distance_mm;     ///< of the rim
 	Estimate darkening;                  ///< what the rim takes of the patch that it darkens most, 0..1
+	/// Of that darkening, and of what the rim's two numbers do to the fit, the smaller one.
+	double rim_sigmas = 0;
 	double rms = 0, held_out = 0;        ///< of the logarithm of the brightness; 0: there is nothing to leave out
 	std::vector<FalloffGain> gains;
 	std::vector<FalloffPoint> points;

@@ -98,7 +98,7 @@ Effect VignettingOf(const Calibration& c, bool optical, bool beside)
 	e.held_out_with = with.held_out;
 	if (e.failure.empty() && (!with.fitted || !without.fitted))
 		e.failure = "the fit of the brightness did not converge";
-	e.sigmas = optical ? Sigmas(with.darkening) : NOT_KNOWN;
+	e.sigmas = optical ? with.rim_sigmas : NOT_KNOWN;
 	if (e.failure.empty() && optical && !with.rim_seen)
 		e.failure = "no patch is darker than without a rim";
 	if (optical && e.failure.empty())

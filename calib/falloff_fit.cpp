@@ -197,18 +197,28 @@ bool FalloffFit::Covariance(FalloffUnknowns& x, Eigen::Matrix2d& result) const
 {
 	ceres::Problem problem;
 	Build(*this, x, problem);
-	ceres::Covariance::Options options;
-	options.algorithm_type = ceres::DENSE_SVD;
-	options.min_reciprocal_condition_number = 1e-18;
-	ceres::Covariance covariance(options);
-	const std::vector<const double*> wanted{ x.rim };
-	double cost = 0, block[4];
-	problem.Evaluate(ceres::Problem::EvaluateOptions(), &cost, nullptr, nullptr, nullptr);
-	if (!optical || !covariance.Compute(wanted, &problem) || !covariance.GetCovarianceBlock(x.rim, x.rim, block))
+	if (!optical)
 		return false;
-	const double freedom = std::max(1, problem.NumResiduals() - problem.NumParameters());
-	result << block[0], block[1], block[2], block[3];
-	result *= 2 * cost / freedom;
+	// Not ceres::Covariance: a rim that cuts nothing is no error, and it would write one.
+	ceres::Problem::EvaluateOptions options;
+	problem.GetParameterBlocks(&options.parameter_blocks);
+	const auto rim = std::find(options.parameter_blocks.begin(), options.parameter_blocks.end(), x.rim);
+	std::iter_swap(options.parameter_blocks.begin(), rim);
+	double cost = 0;
+	ceres::CRSMatrix jacobian;
+	problem.Evaluate(options, &cost, nullptr, nullptr, &jacobian);
+	Eigen::MatrixXd J = Eigen::MatrixXd::Zero(jacobian.num_rows, jacobian.num_cols);
+	for (int row = 0; row < jacobian.num_rows; ++row)
+		for (int k = jacobian.rows[size_t(row)]; k < jacobian.rows[size_t(row) + 1]; ++k)
+			J(row, jacobian.cols[size_t(k)]) = jacobian.values[size_t(k)];
+	const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> lighting(J.rightCols(J.cols() - 2));
+	// What the lighting cannot take up.
+	const Eigen::MatrixXd own = J.leftCols(2) - J.rightCols(J.cols() - 2) * lighting.solve(J.leftCols(2));
+	const Eigen::Matrix2d information = own.transpose() * own;
+	const double freedom = std::max<long>(1, J.rows() - J.cols());
+	if (!(information.determinant() > 1e-12 * information.diagonal().prod()))
+		return false;
+	result = information.inverse() * (2 * cost / freedom);
 	return result.allFinite() && result(0, 0) > 0 && result(1, 1) > 0;
 }
 

@@ -207,6 +207,26 @@ void FillPoints(const Data& data, const FalloffFit& fit, const FalloffUnknowns& 
 		answer.gains.push_back({ data.exposures[k].state, data.exposures[k].photo, std::exp(x.gain[k]) });
 }
 
+/// How many standard deviations of one number the rim's two lower the cost by: chi squared of two is beyond x with the
+/// probability exp(-x/2).
+double SigmasOfRim(const FalloffFit& fit, FalloffUnknowns x)
+{
+	FalloffFit without = fit;
+	without.optical = false;
+	const double with_rim = fit.Minimise(x), no_rim = without.Minimise(x);
+	const double freedom = std::max<double>(1, double(fit.samples.size()) - double(x.gain.size()) - 2);
+	const double x2 = std::max(0.0, (no_rim - with_rim) / (with_rim / freedom));
+	if (x2 > 60)   // erfc is too small to invert, and nobody needs to know
+		return std::sqrt(x2);
+	double least = 0, most = 10;   // erfc(sigmas / sqrt 2) is the probability
+	for (int k = 0; k < 60; ++k)
+	{
+		const double middle = 0.5 * (least + most);
+		(std::erfc(middle / std::sqrt(2.0)) > std::exp(-0.5 * x2) ? least : most) = middle;
+	}
+	return least;
+}
+
 FalloffAnswer Fit(const Data& data, bool natural, bool optical, double focal_length)
 {
 	FalloffFit fit = data.fit;
@@ -228,6 +248,7 @@ FalloffAnswer Fit(const Data& data, bool natural, bool optical, double focal_len
 	answer.radius_mm = { std::exp(x.rim[0]), std::exp(x.rim[0]) * sigma[0] };
 	answer.distance_mm = { std::exp(x.rim[1]), std::exp(x.rim[1]) * sigma[1] };
 	answer.darkening = { Darkening(fit, darkest, x.rim), sigma[2] };
+	answer.rim_sigmas = std::min(answer.darkening.value / answer.darkening.sigma, SigmasOfRim(fit, x));
 	return answer;
 }
 

@@ -40,14 +40,6 @@ Calibration Estimated(Calibration c)
 	return c;
 }
 
-const Effect& EffectOf(const Calibration& c, const std::string& name)
-{
-	for (const Effect& e : c.effects)
-		if (e.name == name)
-			return e;
-	throw std::runtime_error(name);
-}
-
 /// The exit code it ends with.
 template<typename Function>
 int CodeOf(const Function& function)
