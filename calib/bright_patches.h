@@ -19,7 +19,7 @@ namespace tiltcal
 const double CLIPPED = 0.995;
 
 /// Fills photo.white and photo.white_saturated: the interiors of the board's white squares, the outermost included, as
-/// far as no edge's blur reaches; of circles the white between four of them, or white circles themselves.
+/// far as no edge's blur reaches. Grids of circles have none.
 /// `linear`: CV_32FC1 or CV_32FC3; `photo` has its corners and edges.
 void MeasureWhite(const cv::Mat& linear, const Board& board, Photo& photo);
 

@@ -5,6 +5,7 @@
 #include "calibrate.h"
 #include "error.h"
 #include "fixed_blades.h"
+#include "robust.h"
 
 #include <fmt/format.h>
 
@@ -34,6 +35,8 @@ std::string NameList()
 }
 
 double Sigmas(const Estimate& e) { return e.sigma > 0 ? std::abs(e.value) / e.sigma : 0; }
+
+double SigmasOfBoth(const std::array<Estimate, 2>& e) { return SigmasOfTwo(std::pow(Sigmas(e[0]), 2) + std::pow(Sigmas(e[1]), 2)); }
 
 Effect DistortionOf(const Calibration& c, const EffectChoice& choice)
 {
@@ -112,7 +115,7 @@ Effect LateralOf(const Calibration& c)
 	e.unit = "px, shift of edges of photographs left out";
 	e.failure = c.chromatic.failure;
 	e.values = { { "C red", c.chromatic.lateral[0] }, { "C blue", c.chromatic.lateral[1] } };
-	e.sigmas = std::max(Sigmas(c.chromatic.lateral[0]), Sigmas(c.chromatic.lateral[1]));
+	e.sigmas = SigmasOfBoth(c.chromatic.lateral);
 	e.held_out_without = c.chromatic.lateral_held_out_without;
 	e.held_out_with = c.chromatic.lateral_held_out_with;
 	return e;
@@ -124,7 +127,7 @@ Effect AxialOf(const Calibration& c)
 	e.unit = "px, difference in blur of edges of photographs left out";
 	e.failure = c.chromatic.failure;
 	e.values = { { "A red per mm", c.chromatic.axial_per_mm[0] }, { "A blue per mm", c.chromatic.axial_per_mm[1] } };
-	e.sigmas = std::max(Sigmas(c.chromatic.axial_per_mm[0]), Sigmas(c.chromatic.axial_per_mm[1]));
+	e.sigmas = SigmasOfBoth(c.chromatic.axial_per_mm);
 	e.held_out_without = c.chromatic.axial_held_out_without;
 	e.held_out_with = c.chromatic.axial_held_out_with;
 	return e;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 //
-// Statistics that outliers do not move.
+// Statistics that outliers do not move, and how improbable a number is.
 
 #ifndef TILTCAL_ROBUST_H
 #define TILTCAL_ROBUST_H
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace tiltcal
@@ -26,6 +28,21 @@ inline double RobustSigma(std::vector<double> residuals)
 	for (double& r : residuals)
 		r = std::abs(r);
 	return 1.4826 * Median(std::move(residuals));
+}
+
+/// Of how many standard deviations of one normal number a chi squared of two is as improbable: chi squared of two is beyond
+/// x with the probability exp(-x/2).
+inline double SigmasOfTwo(double chi_squared)
+{
+	if (chi_squared > 60)   // erfc is too small to invert, and nobody needs to know
+		return std::sqrt(chi_squared);
+	double least = 0, most = 10;
+	for (int k = 0; k < 60; ++k)
+	{
+		const double middle = 0.5 * (least + most);
+		(std::erfc(middle / std::sqrt(2.0)) > std::exp(-0.5 * chi_squared) ? least : most) = middle;
+	}
+	return least;
 }
 
 }

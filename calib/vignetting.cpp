@@ -4,6 +4,7 @@
 
 #include "calibrate.h"
 #include "falloff_fit.h"
+#include "robust.h"
 
 #include <fmt/format.h>
 #include <tilt_lens/field_curvature.h>
@@ -207,24 +208,14 @@ void FillPoints(const Data& data, const FalloffFit& fit, const FalloffUnknowns& 
 		answer.gains.push_back({ data.exposures[k].state, data.exposures[k].photo, std::exp(x.gain[k]) });
 }
 
-/// How many standard deviations of one number the rim's two lower the cost by: chi squared of two is beyond x with the
-/// probability exp(-x/2).
+/// How much the rim's two numbers lower the cost, in standard deviations of one.
 double SigmasOfRim(const FalloffFit& fit, FalloffUnknowns x)
 {
 	FalloffFit without = fit;
 	without.optical = false;
 	const double with_rim = fit.Minimise(x), no_rim = without.Minimise(x);
 	const double freedom = std::max<double>(1, double(fit.samples.size()) - double(x.gain.size()) - 2);
-	const double x2 = std::max(0.0, (no_rim - with_rim) / (with_rim / freedom));
-	if (x2 > 60)   // erfc is too small to invert, and nobody needs to know
-		return std::sqrt(x2);
-	double least = 0, most = 10;   // erfc(sigmas / sqrt 2) is the probability
-	for (int k = 0; k < 60; ++k)
-	{
-		const double middle = 0.5 * (least + most);
-		(std::erfc(middle / std::sqrt(2.0)) > std::exp(-0.5 * x2) ? least : most) = middle;
-	}
-	return least;
+	return SigmasOfTwo(std::max(0.0, (no_rim - with_rim) / (with_rim / freedom)));
 }
 
 FalloffAnswer Fit(const Data& data, bool natural, bool optical, double focal_length)
