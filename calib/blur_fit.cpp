@@ -4,6 +4,7 @@
 
 #include "error.h"
 #include "footprint.h"
+#include "robust.h"
 #include "solve_geometry.h"
 
 #include <ceres/ceres.h>
@@ -155,9 +156,8 @@ double BlurFit::Scale(const Unknowns& x) const
 {
 	std::vector<double> r;
 	for (const Observation& o : observations)
-		r.push_back(std::abs(Residual(o, x)));
-	std::nth_element(r.begin(), r.begin() + long(r.size() / 2), r.end());
-	return 1.4826 * r[r.size() / 2];
+		r.push_back(Residual(o, x));
+	return RobustSigma(std::move(r));
 }
 
 Eigen::MatrixXd BlurFit::CovarianceOfPlanes(Unknowns x, double w_sigma_mm) const

@@ -69,7 +69,7 @@ struct BlurFit
 	/// weighted sum of squares), 1e300 without convergence.
 	double Minimise(Unknowns& x, Free free, size_t state) const;
 
-	/// Standard deviation of the residuals, robust: 1.4826 median |residual|, px.
+	/// RobustSigma of the residuals, px.
 	double Scale(const Unknowns& x) const;
 
 	/// Covariance of w, d, floor^2, the two of `curvature` and q of every state, in that order (mm, px), rescaled

@@ -7,6 +7,7 @@
 
 #include "exif.h"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -102,6 +103,22 @@ struct Edge
 	}
 };
 
+/// A part of a photograph that is evenly bright: no blurred edge reaches it.
+struct BrightPatch
+{
+	double u = 0, v = 0;               ///< its centre, px
+	double value = 0, sigma = 0;       ///< mean brightness, linear light
+	double board_column = 0, board_row = 0;   ///< the same place on the board, in squares or spacings
+};
+
+/// The same part of an edge in the three colours.
+struct ColourEdge
+{
+	Edge green;                        ///< without its profile
+	std::array<double, 2> shift{}, shift_sigma{};     ///< red's and blue's place minus green's along green's normal, px
+	std::array<double, 2> widening{}, widening_sigma{};   ///< red's and blue's blur minus green's, px
+};
+
 /// Everything measured in one photograph. Corners row by row: index row * InnerColumns + column;
 /// circles: j * columns + i.
 struct Photo
@@ -114,6 +131,10 @@ struct Photo
 	bool bright_circles = false; ///< white on dark
 	int edges_dropped = 0;       ///< blurred beyond measuring, or not fitted
 	double saturated_share = 0;  ///< edges whose bright side is clipped
+	std::vector<BrightPatch> white;   ///< of the board (bright_patches.h)
+	int white_saturated = 0;     ///< patches left out because they are clipped
+	bool coloured = false;       ///< the channels differ
+	std::vector<ColourEdge> colours;   ///< of some edges (measure_colours.h)
 };
 
 /// Edge::BlurRatio of the edges of a photograph; all 0 when it has none.

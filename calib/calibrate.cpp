@@ -2,13 +2,18 @@
 
 #include "calibrate.h"
 
+#include "bright_patches.h"
+#include "chromatic_fit.h"
 #include "error.h"
 #include "exif_check.h"
 #include "files.h"
+#include "image_io.h"
 #include "measure.h"
+#include "robust.h"
 #include "solve_blur.h"
 #include "solve_geometry.h"
 #include "solve_joint.h"
+#include "vignetting.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -70,8 +75,7 @@ void WarnOfOddPhotos(const Task& task, const Geometry& g)
 	std::vector<double> all;
 	for (const auto& state : g.photo_rms)
 		all.insert(all.end(), state.begin(), state.end());
-	std::nth_element(all.begin(), all.begin() + long(all.size() / 2), all.end());
-	const double median = all[all.size() / 2];
+	const double median = Median(all);
 	for (size_t s = 0; s < g.photo_rms.size(); ++s)
 		for (size_t p = 0; p < g.photo_rms[s].size(); ++p)
 			if (g.photo_rms[s][p] > 5 * median + 0.3)
@@ -109,13 +113,15 @@ bool PosesAreShared(const Task& task, const std::vector<Vec3<double>>& normals, 
 
 /// The exact model. The distortion turns with the lens, so lens and geometry are solved
 /// in turn: the lens moves the distortion's axis, the geometry hardly moves the lens.
-void SolveExact(const Task& task, const std::string& model, Poses poses, Calibration& c)
+void SolveExact(const Task& task, const std::string& model, Poses poses, const EffectChoice& effects, Calibration& c)
 {
 	auto solve = model == "rigid" ? SolveRigid : model == "curved" ? SolveCurved : SolvePlane;
 	spdlog::info("solving geometry and lens ({})", model == "auto" ? "plane" : model);
-	c.geometry = SelectGeometry(task, {});
+	GeometryOptions options;
+	options.may_distort = !effects.Excludes("distortion");
+	c.geometry = SelectGeometry(task, options);
 	c.solution = solve(task, c.geometry);
-	GeometryOptions options{ 0, LensNormals(c.solution), false };
+	options.lens_normal = LensNormals(c.solution);
 	options.shared_poses = PosesAreShared(task, options.lens_normal, poses);
 	for (int round = 0; round < 2; ++round)
 	{
@@ -129,7 +135,7 @@ void SolveExact(const Task& task, const std::string& model, Poses poses, Calibra
 		c.compared = CompareExact(task, c.geometry);
 		const Solution& plane = c.compared[1];
 		const Solution& curved = c.compared[2];
-		if (CurvatureIsSeen(plane, curved))
+		if (CurvatureIsSeen(plane, curved) || (effects.Wants("field_curvature") && curved.failure.empty()))
 		{
 			solve = SolveCurved;
 			options.lens_normal = LensNormals(curved);
@@ -142,6 +148,24 @@ void SolveExact(const Task& task, const std::string& model, Poses poses, Calibra
 	}
 	c.pinhole = SolveGeometry(task, { 0, {}, options.shared_poses });
 	c.render = c.geometry.distortion_terms ? solve(task, c.pinhole) : c.solution;
+}
+
+/// The model to solve where the effects asked for leave no choice. Throws UsageError where they contradict --model.
+std::string ModelFor(const std::string& model, const EffectChoice& effects)
+{
+	if (!effects.Excludes("field_curvature"))
+		return model;
+	if (model == "curved")
+		throw UsageError("--model curved has field curvature: add field_curvature to --effects, or leave out --model");
+	return model == "auto" ? "plane" : model;
+}
+
+void LogEffects(const Calibration& c)
+{
+	if (!c.vignetting.failure.empty())
+		spdlog::info("vignetting not estimated: {}", c.vignetting.failure);
+	if (!c.chromatic.failure.empty())
+		spdlog::info("chromatic aberration not estimated: {}", c.chromatic.failure);
 }
 
 /// Joint refinement; what blur alone and geometry alone say of the tilt is kept.
@@ -192,13 +216,24 @@ Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, doubl
 	return task;
 }
 
-Calibration Calibrate(const Task& task, const std::string& model, Poses poses, Refinement refinement)
+void AddFlatField(Task& task, size_t state, const std::string& file, const Transfer& transfer)
+{
+	const cv::Mat picture = ReadLinear(file, transfer);
+	if (picture.cols != task.width || picture.rows != task.height)
+		throw Refused(fmt::format("--flat-field {}: is {}x{} pixels, the photographs of the board are {}x{}; all must come from the same camera, uncropped and not turned",
+			file, picture.cols, picture.rows, task.width, task.height));
+	task.flat_fields.push_back({ state, file, MeasureFlatField(picture, file) });
+	spdlog::info("{}: flat field of state {}, {} cells", file, task.states[state].name, task.flat_fields.back().patches.size());
+}
+
+Calibration Calibrate(const Task& task, const std::string& wanted_model, Poses poses, Refinement refinement, const EffectChoice& effects)
 {
 	Calibration c;
 	c.task = task;
+	const std::string model = ModelFor(wanted_model, effects);
 	if (model != "paper")
 	{
-		SolveExact(task, model, poses, c);
+		SolveExact(task, model, poses, effects, c);
 		Refine(task, refinement, c);
 	}
 	else
@@ -230,6 +265,10 @@ Calibration Calibrate(const Task& task, const std::string& model, Poses poses, R
 	}
 	if (model == "paper")
 		c.solution = c.render = c.paper;
+	c.vignetting = EstimateVignetting(c);
+	c.chromatic = EstimateChromatic(c);
+	LogEffects(c);
+	ChooseEffects(effects, c);
 	return c;
 }
 

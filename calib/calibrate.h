@@ -5,6 +5,7 @@
 
 #include "calibration.h"
 #include "detect.h"
+#include "effects.h"
 #include "joint_fit.h"
 #include "measure.h"
 #include "transfer.h"
@@ -30,6 +31,9 @@ struct StateFiles
 Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, double pitch_mm,
 	const Transfer& transfer, const DetectOptions& options, const EdgeChoice& choice = {});
 
+/// Measures a photograph of an evenly lit plain surface taken in state `state`. Throws Error: unreadable, of another size, clipped, dark.
+void AddFlatField(Task& task, size_t state, const std::string& file, const Transfer& transfer);
+
 /// Whether photograph n shows the board in the same pose in every state.
 enum class Poses
 {
@@ -40,8 +44,10 @@ enum class Poses
 
 /// Solves everything. `model` is "plane", "rigid", "curved", "paper", or "auto": curved where CurvatureIsSeen,
 /// else plane. The paper's model is always solved
-/// too, and only refused when it was the one asked for. Throws Refused.
-Calibration Calibrate(const Task& task, const std::string& model, Poses poses, Refinement refinement = Refinement::EDGES);
+/// too, and only refused when it was the one asked for. Then vignetting and chromatic aberration are estimated, and the
+/// effects chosen. Throws Refused.
+Calibration Calibrate(const Task& task, const std::string& model, Poses poses, Refinement refinement = Refinement::EDGES,
+	const EffectChoice& effects = {});
 
 /// Geometry that belongs to the calibration's own solution (the paper has its own).
 const Geometry& MainGeometry(const Calibration& calibration);

@@ -12,7 +12,9 @@
 #include "lens_model.h"
 #include "priors.h"
 
+#include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tiltcal
@@ -32,6 +34,21 @@ struct State
 	std::vector<Photo> photos;
 };
 
+/// A photograph of an evenly lit plain surface (bright_patches.h).
+struct FlatField
+{
+	size_t state = 0;
+	std::string file;
+	std::vector<BrightPatch> patches;
+};
+
+/// The opening's blades (tilt_lens/blades.h).
+struct FixedBlades
+{
+	int count = 0;                 ///< 0: not known
+	double rotation_deg = 0, curvature = 0;
+};
+
 struct Task
 {
 	Board board;
@@ -39,6 +56,8 @@ struct Task
 	int width = 0, height = 0;
 	std::vector<State> states;     ///< untilted first
 	std::vector<Prior> priors;     ///< what is known beforehand
+	std::vector<FlatField> flat_fields;
+	FixedBlades blades;            ///< told by --fix; nothing measures them
 };
 
 /// Where the boards and the sensor are. Indices: state, then photo.
@@ -109,6 +128,69 @@ struct GeometryAlone
 	Estimate pupil_magnification;
 };
 
+/// Of one patch: the angle between its direction and the lens axis, and the light that is left of it, exposure and gradient of the
+/// lighting taken out.
+struct FalloffPoint
+{
+	size_t state = 0;
+	double angle_deg = 0, measured = 0, model = 0;
+};
+
+/// The exposure of a photograph, or of a flat field with `photo` its index in Task::flat_fields: the white's value on the lens axis.
+struct FalloffGain
+{
+	size_t state = 0, photo = 0;
+	double gain = 0;
+};
+
+/// What a fit with some of the two kinds of vignetting finds (vignetting.h).
+struct FalloffAnswer
+{
+	bool fitted = false;
+	bool rim_seen = false;               ///< without it the rim cuts nothing, and its numbers are 0
+	Estimate radius_mm, distance_mm;     ///< of the rim
+	Estimate darkening;                  ///< what the rim takes of the patch that it darkens most, 0..1
+	/// Of that darkening, and of what the rim's two numbers do to the fit, the smaller one.
+	double rim_sigmas = 0;
+	double rms = 0, held_out = 0;        ///< of the logarithm of the brightness; 0: there is nothing to leave out
+	std::vector<FalloffGain> gains;
+	std::vector<FalloffPoint> points;
+};
+
+/// Index of Vignetting::answers.
+inline size_t FalloffKind(bool natural, bool optical) { return (natural ? 1u : 0u) + (optical ? 2u : 0u); }
+
+struct Vignetting
+{
+	std::string failure;      ///< why nothing can be said; empty when something can
+	bool flat_field = false;  ///< told by flat fields, not by the board
+	std::array<FalloffAnswer, 4> answers;   ///< by FalloffKind
+};
+
+/// What the colours of edges tell of chromatic aberration (chromatic_fit.h): index 0 red, 1 blue, each against green.
+struct Chromatic
+{
+	std::string failure;      ///< why nothing can be said; empty when something can
+	int edges = 0;
+	std::array<Estimate, 2> lateral;         ///< C_R, C_B of tilt_lens/chromatic.h
+	std::array<Estimate, 2> axial_per_mm;    ///< A_R, A_B
+	double lateral_held_out_without = 0, lateral_held_out_with = 0;   ///< of an edge's shift, px; 0: there is nothing to leave out
+	double axial_held_out_without = 0, axial_held_out_with = 0;       ///< of an edge's difference in blur width, px
+};
+
+/// An effect of tilt_lens, and whether the camera blocks name it.
+struct Effect
+{
+	std::string name;                        ///< as in --effects
+	std::string failure;                     ///< why it was not estimated; empty when it was
+	bool used = false;
+	std::string why;                         ///< it is written or not
+	std::vector<std::pair<std::string, Estimate>> values;   ///< what a person would ask for
+	double sigmas = 0;                       ///< how many standard deviations it is from nothing; NaN: it has no number of its own
+	double held_out_without = 0, held_out_with = 0;   ///< 0: not known
+	std::string unit;                        ///< of the latter
+};
+
 struct Calibration
 {
 	Task task;
@@ -121,6 +203,9 @@ struct Calibration
 	std::vector<Solution> compared;   ///< CompareExact's, when the model was to be chosen; else empty
 	Solution paper;              ///< the paper's model, always
 	Geometry paper_geometry;     ///< poses of the paper's stage 1
+	Vignetting vignetting;
+	Chromatic chromatic;
+	std::vector<Effect> effects;   ///< effects.h; empty before they are chosen
 };
 
 }

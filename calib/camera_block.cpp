@@ -7,6 +7,26 @@
 namespace tiltcal
 {
 
+std::string EffectLines(const EffectWords& w)
+{
+	std::string out;
+	const auto add = [&](const char* word, const std::string& values)
+	{
+		if (!values.empty())
+			out += fmt::format("\t\t{} {}\n", word, values);
+	};
+	add("field_curvature", w.field_curvature);
+	if (!w.distortion_only_if.empty() && !w.distortion.empty())
+		out += fmt::format("#if ({})\n\t\tdistortion {}\n#end\n", w.distortion_only_if, w.distortion);
+	else
+		add("distortion", w.distortion);
+	add("vignetting", w.natural_vignetting ? "natural" : "");
+	add("vignetting optical", w.optical_vignetting);
+	add("chromatic", (w.lateral.empty() ? "" : "lateral " + w.lateral) + (w.lateral.empty() || w.axial.empty() ? "" : " ") + (w.axial.empty() ? "" : "axial " + w.axial));
+	add("blades", w.blades);
+	return out;
+}
+
 std::string CameraBlockText(const CameraBlock& b)
 {
 	return fmt::format(

@@ -19,6 +19,21 @@ struct CameraBlock
 	std::string place;     ///< lines: location, direction, right, up, .., each indented by one tab and ended
 };
 
+/// The effects of a tilt_lens block: numbers or identifiers behind the word; empty: the word is absent.
+struct EffectWords
+{
+	std::string field_curvature;
+	std::string distortion;        ///< k1, k2, p1, p2, k3
+	std::string distortion_only_if;   ///< a condition, for `#if`; empty: always
+	bool natural_vignetting = false;
+	std::string optical_vignetting;   ///< R, Z
+	std::string lateral, axial;    ///< red, blue
+	std::string blades;            ///< N rotation A curvature C
+};
+
+/// Lines for CameraBlock::effects.
+std::string EffectLines(const EffectWords& words);
+
 /// The one place that writes camera blocks. Sets blur_samples by TiltCal_Blur_Samples, which
 /// BlurSamplesDefault declares. Ends with a line end.
 std::string CameraBlockText(const CameraBlock& block);

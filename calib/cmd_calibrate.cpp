@@ -6,6 +6,7 @@
 #include "error.h"
 #include "exif_check.h"
 #include "files.h"
+#include "fixed_blades.h"
 #include "write_report.h"
 
 #include <fmt/format.h>
@@ -25,10 +26,10 @@ namespace
 
 struct Options
 {
-	std::string board, target = "checkerboard", transfer = "srgb", model = "auto", poses = "auto", refine = "edges", out;
+	std::string board, target = "checkerboard", transfer = "srgb", model = "auto", poses = "auto", refine = "edges", effects = "auto", out;
 	double square = 0, circle_diameter = 0;
 	std::optional<double> pitch;
-	std::vector<std::string> untilted, tilted, fix, prior;
+	std::vector<std::string> untilted, tilted, fix, prior, flat_field;
 	DetectOptions detect;
 	EdgeChoice edges;
 };
@@ -60,6 +61,35 @@ std::vector<StateFiles> States(const Options& o)
 		states.push_back({ name, ExpandGlobs({ option.substr(equals + 1) }, "--tilted " + name) });
 	}
 	return states;
+}
+
+struct FieldFile
+{
+	size_t state;
+	std::string file;
+};
+
+/// --flat-field NAME=FILE, FILE a name or a pattern.
+std::vector<FieldFile> FlatFields(const Options& o, const std::vector<StateFiles>& states)
+{
+	std::vector<FieldFile> fields;
+	for (const std::string& option : o.flat_field)
+	{
+		const size_t equals = option.find('=');
+		const std::string name = option.substr(0, equals);
+		std::string names;
+		size_t state = states.size();
+		for (size_t s = 0; s < states.size(); ++s)
+		{
+			names += (s ? ", " : "") + states[s].name;
+			state = states[s].name == name ? s : state;
+		}
+		if (equals == std::string::npos || state == states.size())
+			throw UsageError(fmt::format("--flat-field {}: give NAME=FILE, NAME one of the states {}", option, names));
+		for (const std::string& file : ExpandGlobs({ option.substr(equals + 1) }, "--flat-field " + name))
+			fields.push_back({ state, file });
+	}
+	return fields;
 }
 
 std::vector<std::string> AllFiles(const std::vector<StateFiles>& states)
@@ -99,11 +129,11 @@ Refinement ParseRefinement(const std::string& text)
 }
 
 /// A wrong --fix makes the photographs contradict themselves, which reads like a lack of photographs.
-Calibration CalibrateWithPriors(const Task& task, const std::string& model, Poses poses, Refinement refinement)
+Calibration CalibrateWithPriors(const Task& task, const std::string& model, Poses poses, Refinement refinement, const EffectChoice& effects)
 {
 	try
 	{
-		return Calibrate(task, model, poses, refinement);
+		return Calibrate(task, model, poses, refinement, effects);
 	}
 	catch (const Error& e)
 	{
@@ -121,27 +151,35 @@ void Run(const Options& o)
 	CheckModel(o.model);
 	const Poses poses = ParsePoses(o.poses);
 	const Refinement refinement = ParseRefinement(o.refine);
+	const EffectChoice effects = ParseEffects(o.effects);
 	if (o.pitch)
 		CheckPitch(*o.pitch);
 	if (o.edges.most != 0 && o.edges.most < FEWEST_EDGES)
 		throw UsageError(fmt::format("--edges-per-photo {}: give 0 for all edges, or at least {}", o.edges.most, FEWEST_EDGES));
 	const std::vector<StateFiles> states = States(o);
 	std::vector<Prior> priors;
+	FixedBlades blades;
 	for (const std::string& text : o.fix)
-		priors.push_back(ParseFix(text));
+		if (!TakeBlades(text, blades))
+			priors.push_back(ParseFix(text));
+	CheckBlades(blades);
 	for (const std::string& text : o.prior)
 		priors.push_back(ParsePrior(text));
 	const double pitch = o.pitch ? *o.pitch : PitchFromExif(AllFiles(states));
+	const std::vector<FieldFile> fields = FlatFields(o, states);
 	PrepareFolder(o.out);
 
 	Task task = MeasureAll(states, board, pitch, transfer, o.detect, o.edges);
 	task.priors = priors;
+	task.blades = blades;
+	for (const FieldFile& field : fields)
+		AddFlatField(task, field.state, field.file, transfer);
 	for (const Prior& prior : PriorsFromExif(task, priors))
 	{
 		spdlog::info("EXIF says {} {:g}: taken as known to 10 %", prior.Name(), prior.value);
 		task.priors.push_back(prior);
 	}
-	const Calibration c = CalibrateWithPriors(task, o.model, poses, refinement);
+	const Calibration c = CalibrateWithPriors(task, o.model, poses, refinement, effects);
 	for (const std::string& words : CompareWithExif(c))
 		spdlog::warn("{}", words);
 	WriteEverything(c, transfer, o.out, o.refine);
@@ -172,8 +210,12 @@ void AddCalibrate(CLI::App& app)
 	c->add_option("--refine", o->refine, "Last step, all numbers together: edges: places and blur widths of the edges; photometric: the brightness across them; "
 		"none: geometry first, then blur")->capture_default_str();
 	c->add_option("--fix", o->fix, "NAME=VALUE: what is known exactly: focal_length, f_number, image_distance, focus_distance, aperture_diameter "
-		"(mm; untilted); may be repeated");
+		"(mm; untilted); blades (their number), blade_rotation (degrees, of a corner: 0 up, 90 right), blade_curvature (0 straight to 1 round); may be repeated");
 	c->add_option("--prior", o->prior, "NAME=VALUE:SIGMA: what is known about; the same names; may be repeated");
+	c->add_option("--flat-field", o->flat_field, "NAME=FILE: photograph of an evenly lit plain surface in the state NAME (untilted included); may be repeated. "
+		"Vignetting is then told by these instead of the board's white squares");
+	c->add_option("--effects", o->effects, "What the camera blocks simulate: auto: what is significant and foretells photographs left out better; all: all that can be estimated; "
+		"none; or some of distortion, field_curvature, vignetting_natural, vignetting_optical, chromatic_lateral, chromatic_axial, blades, separated by commas: exactly these")->capture_default_str();
 	c->add_option("--edges-per-photo", o->edges.most, "Measure only N edges of every photograph, spread evenly over the board and both directions: "
 		"faster, less accurate. 0: all")->capture_default_str();
 	c->add_flag("--any-orientation", o->detect.any_orientation, "Accept a board that stands upside down (a mirrored picture looks the same)");

@@ -2,6 +2,8 @@
 
 #include "edge_fit.h"
 
+#include "robust.h"
+
 #include <Eigen/Dense>
 
 #include <algorithm>
@@ -69,15 +71,14 @@ Normal Assemble(const Vector& p, const std::vector<EdgeSample>& samples, const E
 	return n;
 }
 
-/// 1.4826 times the median of |residual|: the standard deviation, deaf to outliers.
+/// RobustSigma, and never 0.
 double ResidualScale(const Vector& p, const std::vector<EdgeSample>& samples, const EdgeProfile& profile)
 {
 	std::vector<double> r;
 	r.reserve(samples.size());
 	for (const EdgeSample& sample : samples)
-		r.push_back(std::abs(sample.value - Predict(p, sample, profile, nullptr)));
-	std::nth_element(r.begin(), r.begin() + static_cast<long>(r.size() / 2), r.end());
-	return std::max(1.4826 * r[r.size() / 2], 1e-6 * std::abs(p[HIGH] - p[LOW]) + 1e-12);
+		r.push_back(sample.value - Predict(p, sample, profile, nullptr));
+	return std::max(RobustSigma(std::move(r)), 1e-6 * std::abs(p[HIGH] - p[LOW]) + 1e-12);
 }
 
 /// One Levenberg-Marquardt descent at a fixed robust scale. False: singular.
@@ -130,10 +131,8 @@ Vector Start(const std::vector<EdgeSample>& samples, double start_radius)
 	p[RADIUS] = std::max(start_radius, 2 * MIN_RADIUS);
 	if (dark.size() < 8 || bright.size() < 8)
 		return p;
-	std::nth_element(dark.begin(), dark.begin() + static_cast<long>(dark.size() / 2), dark.end());
-	std::nth_element(bright.begin(), bright.begin() + static_cast<long>(bright.size() / 2), bright.end());
-	p[LOW] = dark[dark.size() / 2];
-	p[HIGH] = bright[bright.size() / 2];
+	p[LOW] = Median(std::move(dark));
+	p[HIGH] = Median(std::move(bright));
 	return p;
 }
 

@@ -5,6 +5,7 @@
 #include "circle_outline.h"
 #include "error.h"
 #include "find_board.h"
+#include "robust.h"
 
 #include <Eigen/Dense>
 #include <fmt/format.h>
@@ -24,12 +25,6 @@ namespace
 using Points = std::vector<cv::Point2f>;
 
 const double PI = 3.14159265358979323846;
-
-double Median(std::vector<double> v)
-{
-	std::nth_element(v.begin(), v.begin() + long(v.size() / 2), v.end());
-	return v[v.size() / 2];
-}
 
 /// Dark blobs of an 8-bit picture.
 std::vector<cv::KeyPoint> Blobs(const cv::Mat& picture, const Board& board, float convexity)

@@ -2,10 +2,13 @@
 
 #include "measure.h"
 
+#include "bright_patches.h"
 #include "error.h"
 #include "image_io.h"
 #include "measure_circles.h"
+#include "measure_colours.h"
 #include "measure_edge.h"
+#include "robust.h"
 #include "spread_order.h"
 
 #include <Eigen/Dense>
@@ -221,18 +224,13 @@ void RefuseTooBlurred(const std::vector<Measured>& all, const std::string& file)
 	const auto beyond = std::count_if(all.begin(), all.end(), [](const Measured& m) { return m.outcome != EdgeOutcome::MEASURED && m.edge.square_px > 0; });
 	if (2 * beyond < static_cast<long>(all.size()) || ratios.empty())
 		return;
-	const auto median = [](std::vector<double>& v)
-	{
-		std::nth_element(v.begin(), v.begin() + static_cast<long>(v.size() / 2), v.end());
-		return v[v.size() / 2];
-	};
 	const std::string advice = "Stop down, move the board nearer to the plane of focus, or use a board of larger squares";
 	// A fit that fails or says less than the limit has taken contrast for blur.
-	if (!contrasts.empty() && (2 * static_cast<long>(contrasts.size()) > beyond || median(ratios) < MOST_RATIO))
+	if (!contrasts.empty() && (2 * static_cast<long>(contrasts.size()) > beyond || Median(ratios) < MOST_RATIO))
 		throw Refused(fmt::format("{}: too blurred: what is left of the board's contrast ({:.2f}, at least {:.2f} is needed) shows a blur radius above {:.2f} of a square, "
-			"the most that can be measured. {}", file, median(contrasts), LEAST_CONTRAST, MOST_RATIO, advice));
+			"the most that can be measured. {}", file, Median(contrasts), LEAST_CONTRAST, MOST_RATIO, advice));
 	throw Refused(fmt::format("{}: too blurred: the radius of the blur is {:.2f} of a square (median), {:.2f} can be measured at most. {}",
-		file, median(ratios), MOST_RATIO, advice));
+		file, Median(ratios), MOST_RATIO, advice));
 }
 
 }
@@ -273,7 +271,7 @@ void MeasureEdges(const cv::Mat& grey, const Board& board, Photo& photo, const E
 Photo MeasurePhoto(const std::string& file, const Board& board, const Transfer& transfer, const DetectOptions& options, const EdgeChoice& choice, cv::Mat* grey)
 {
 	Photo photo;
-	const cv::Mat linear = Luminance(ReadLinear(file, transfer, &photo.facts));
+	const cv::Mat picture = ReadLinear(file, transfer, &photo.facts), linear = Luminance(picture);
 	photo.file = file;
 	photo.width = linear.cols;
 	photo.height = linear.rows;
@@ -284,6 +282,8 @@ Photo MeasurePhoto(const std::string& file, const Board& board, const Transfer& 
 	}
 	else
 		MeasureCircles(linear, board, options, photo, choice);
+	MeasureWhite(picture, board, photo);
+	MeasureColours(picture, board, photo);
 	if (grey)
 		*grey = linear;
 	return photo;

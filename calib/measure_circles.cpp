@@ -5,6 +5,7 @@
 #include "error.h"
 #include "find_circles.h"
 #include "measure_arc.h"
+#include "robust.h"
 #include "spread_order.h"
 
 #include <Eigen/Dense>
@@ -50,12 +51,6 @@ void Parallel(size_t from, size_t to, const Function& each)
 		for (int k = range.start; k < range.end; ++k)
 			each(size_t(k));
 	});
-}
-
-double Median(std::vector<double> v)
-{
-	std::nth_element(v.begin(), v.begin() + long(v.size() / 2), v.end());
-	return v[v.size() / 2];
 }
 
 void Look(Grid& grid)

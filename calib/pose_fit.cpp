@@ -2,6 +2,8 @@
 
 #include "pose_fit.h"
 
+#include "robust.h"
+
 #include <Eigen/SVD>
 #include <ceres/ceres.h>
 #include <opencv2/calib3d.hpp>
@@ -208,10 +210,9 @@ double PoseFit::RobustScale(const PoseMinimum& m) const
 	std::vector<double> lengths;
 	for (const Eigen::Vector2d& r : Residuals(m))
 		lengths.push_back(r.norm());
-	std::nth_element(lengths.begin(), lengths.begin() + long(lengths.size() / 2), lengths.end());
 	// The fit's six numbers take up a part of the residuals.
 	const double n = static_cast<double>(points.size());
-	return std::max(LEAST_SCALE_PX, lengths[lengths.size() / 2] / RAYLEIGH_MEDIAN * std::sqrt(n / (n - 3)));
+	return std::max(LEAST_SCALE_PX, Median(std::move(lengths)) / RAYLEIGH_MEDIAN * std::sqrt(n / (n - 3)));
 }
 
 std::vector<PoseMinimum> PoseFit::Minima(double& scale_px) const

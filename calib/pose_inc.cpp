@@ -21,6 +21,27 @@ std::string Sigmas(const Eigen::Vector3d& s, const char* unit)
 	return std::isfinite(s.sum()) ? fmt::format("+- {:.2g}, {:.2g}, {:.2g} {}", s.x(), s.y(), s.z(), unit) : "sigma unknown: give at least 6 points";
 }
 
+std::string Pair(const std::array<double, 2>& values, double factor) { return Number(values[0] * factor) + ", " + Number(values[1] * factor); }
+
+EffectWords WordsOf(const StateCamera& c, double unit_mm)
+{
+	EffectWords words;
+	if (c.field_curvature_per_mm != 0)
+		words.field_curvature = Number(c.field_curvature_per_mm * unit_mm);
+	if (c.HasDistortion())
+		words.distortion = fmt::format("{:.10g}, {:.10g}, {:.10g}, {:.10g}, {:.10g}", c.distortion[0], c.distortion[1], c.distortion[2], c.distortion[3], c.distortion[4]);
+	words.natural_vignetting = c.natural_vignetting;
+	if (c.rim_mm)
+		words.optical_vignetting = Pair(*c.rim_mm, 1 / unit_mm);
+	if (c.lateral)
+		words.lateral = Pair(*c.lateral, 1);
+	if (c.axial_per_mm)
+		words.axial = Pair(*c.axial_per_mm, unit_mm);
+	if (c.blades.count)
+		words.blades = fmt::format("{} rotation {} curvature {}", c.blades.count, Number(c.blades.rotation_deg), Number(c.blades.curvature));
+	return words;
+}
+
 CameraBlock Block(const StateCamera& c, const CameraPose& pose, double unit_mm)
 {
 	// POV-Ray has no infinity; a focus at 1e30 is one.
@@ -29,11 +50,7 @@ CameraBlock Block(const StateCamera& c, const CameraPose& pose, double unit_mm)
 	const Point shift = ShiftOfPicture(c.width, c.height, c.principal_point);
 	CameraBlock block{ "lens_tilt " + Number(c.lens_tilt_deg), Number(c.tilt_direction_deg), Number(focus), Number(w),
 		Number(shift[0] * pixel), Number(shift[1] * pixel), Number(c.aperture_diameter_mm / unit_mm), "", "" };
-	if (c.field_curvature_per_mm != 0)
-		block.effects += fmt::format("\t\tfield_curvature {:.10g}\n", c.field_curvature_per_mm * unit_mm);
-	if (c.HasDistortion())
-		block.effects += fmt::format("\t\tdistortion {:.10g}, {:.10g}, {:.10g}, {:.10g}, {:.10g}\n", c.distortion[0], c.distortion[1], c.distortion[2],
-			c.distortion[3], c.distortion[4]);
+	block.effects = EffectLines(WordsOf(c, unit_mm));
 	const Eigen::Matrix3d world_from_camera = pose.camera_from_world.transpose();
 	block.place = fmt::format("\tlocation {}\n\tdirection {}\n\tright {}\n\tup {}\n", Vector(pose.location), Vector(w * world_from_camera.col(2)),
 		Vector(c.width * pixel * world_from_camera.col(0)), Vector(c.height * pixel * world_from_camera.col(1)));

@@ -3,6 +3,7 @@
 #include "report_html.h"
 
 #include "calibrate.h"
+#include "effects.h"
 #include "files.h"
 #include "html.h"
 #include "report_maps.h"
@@ -35,6 +36,7 @@ p { max-width: 860px } code { background: #f2f2f2; padding: 1px 4px; overflow-wr
 table { border-collapse: collapse; font-size: 14px } th, td { padding: 4px 10px; border-bottom: 1px solid #ddd; text-align: right; vertical-align: top }
 td { font-variant-numeric: tabular-nums } th { font-weight: 600; background: #f6f6f6 } th:first-child { text-align: left } tr:first-child th { vertical-align: bottom }
 .common td:last-child, .common th:last-child, .run td { text-align: left } .files th:first-child { min-width: 150px; overflow-wrap: anywhere }
+.effects td:last-child, .effects th:last-child, .effects td:nth-child(6) { text-align: left; min-width: 150px }
 .correlation td { text-align: center; min-width: 44px; border: 1px solid #fff } .correlation td.none { background: #f4f4f4 }
 .verdict { border-left: 8px solid #888; background: #f2f2f2; padding: 10px 16px; margin: 14px 0; font-size: 16px } .verdict ul { margin: 6px 0 0; padding-left: 20px; font-size: 14px }
 .verdict.good { border-color: #2e7d32; background: #e8f5e9 } .verdict.fair { border-color: #f9a825; background: #fff8e1 } .verdict.poor { border-color: #c62828; background: #ffebee }
@@ -116,6 +118,25 @@ std::string Tilt(const Calibration& c)
 	if (!models.empty())
 		out += "<h3>Models</h3>\n<p>Each model was fitted without one photograph after the other and asked for that photograph's blur. The difference of an edge counts up to a bound, so that one bad edge does not decide.</p>\n" + models;
 	return out + "<h3>Photographs</h3>\n" + PhotographsTable(c) + "<p><small>Blur misfit counts every edge in full. The last two columns are of fits without the photograph; there the difference of an edge counts up to a bound only, so that the last column may be the smaller one.</small></p>\n";
+}
+
+std::string Effects(const Calibration& c)
+{
+	const std::string table = EffectsTable(c);
+	if (table.empty())
+		return "";
+	std::string out = "<h2>Effects</h2>\n<p>What the camera blocks simulate. A scene pays only for what is written.</p>\n" + table;
+	if (!c.vignetting.failure.empty())
+		return out;
+	out += "<h3>Fall-off of the light</h3>\n<p>Each dot is an evenly bright patch, its exposure and the gradient of its lighting taken out; the ring is what the model says of it. Patches at one angle differ "
+		"where a rim cuts a lens that is tilted or focused obliquely.</p>\n<div class=\"pair\">\n";
+	for (size_t s = 0; s < c.task.states.size(); ++s)
+	{
+		const std::string plot = FalloffPlot(c, s);
+		if (!plot.empty())
+			out += "<div><h4>" + Escape(c.task.states[s].name) + "</h4>\n" + plot + "</div>\n";
+	}
+	return out + "</div>\n<p><small>" + fmt::format("The model leaves {:.2f} % RMS over.", 100 * FalloffOf(c).rms) + "</small></p>\n";
 }
 
 std::string Sketches(const Calibration& c)
@@ -211,7 +232,7 @@ void ReportPictures::Add(const cv::Mat& overlay)
 
 std::string ReportHtml(const Calibration& c, const RunNotes& notes, const ReportPictures& pictures)
 {
-	return HEAD + Summary(c, notes) + Tilt(c) + Sketches(c) + Residuals(c) + Overlays(c, pictures) + Fine(c) + "</body></html>\n";
+	return HEAD + Summary(c, notes) + Tilt(c) + Effects(c) + Sketches(c) + Residuals(c) + Overlays(c, pictures) + Fine(c) + "</body></html>\n";
 }
 
 }

@@ -3,6 +3,7 @@
 #include "report_maps.h"
 
 #include "calibrate.h"
+#include "effects.h"
 #include "footprint.h"
 #include "html.h"
 #include "overlay.h"
@@ -155,6 +156,32 @@ std::string BlurPlot(const Calibration& c, size_t s)
 	if (beyond)
 		out += Text(56, 508, fmt::format("{} of {} edges beyond the lower plot, drawn at its rim", beyond, differences.size()));
 	return out + "</svg>\n";
+}
+
+std::string FalloffPlot(const Calibration& c, size_t s)
+{
+	std::string measured, model;
+	double angle = 1, least = 1, most = 1;
+	const std::vector<FalloffPoint>& points = FalloffOf(c).points;
+	for (const FalloffPoint& p : points)
+	{
+		angle = p.state == s ? std::max(angle, p.angle_deg) : angle;
+		least = p.state == s ? std::min({ least, p.measured, p.model }) : least;
+		most = p.state == s ? std::max({ most, p.measured, p.model }) : most;
+	}
+	const Axes axes{ 48, 26, WIDTH - 60, 230, 1.03 * angle, 100 * std::max(0.0, least - 0.03), 100 * (most + 0.03) };
+	for (const FalloffPoint& p : points)
+		if (p.state == s)
+		{
+			measured += fmt::format("M{:.1f} {:.1f}h0", axes.PageX(p.angle_deg), axes.PageY(100 * p.measured));
+			// A ring, so that a dot in it is a patch that fits.
+			model += fmt::format("M{:.1f} {:.1f}a3.2 3.2 0 1 0 6.4 0a3.2 3.2 0 1 0 -6.4 0", axes.PageX(p.angle_deg) - 3.2, axes.PageY(100 * p.model));
+		}
+	if (measured.empty())
+		return "";
+	return Open(300, "Fall-off of the light") + axes.Draw(html::RoundNumber(angle / 4), html::RoundNumber((axes.y_most - axes.y_least) / 4), true)
+		+ fmt::format("<path d=\"{}\" stroke=\"#222\" stroke-width=\"0.8\" fill=\"none\"/>\n", model) + Dots(measured, "#1565c0")
+		+ Text(48, 16, "light left, % of that on the lens axis") + Text(WIDTH - 12, 292, "angle from the lens axis, degrees", "end") + Text(48, 292, "● measured   ○ model") + "</svg>\n";
 }
 
 std::string CornerMap(const Calibration& c, size_t s)

@@ -12,6 +12,10 @@ namespace tiltcal
 
 /// The residuals of one state as inline SVG. Colours of photographs as html::PhotoColour.
 
+/// The light that every white patch of a state has left over the angle from the lens axis, and what the model says of it (FalloffOf).
+/// Empty where there is none.
+std::string FalloffPlot(const Calibration& calibration, size_t state);
+
 /// Blur width of every edge: measured over predicted, and below it the difference; px.
 std::string BlurPlot(const Calibration& calibration, size_t state);
 

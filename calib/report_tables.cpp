@@ -3,6 +3,7 @@
 #include "report_tables.h"
 
 #include "calibrate.h"
+#include "effects.h"
 #include "files.h"
 #include "html.h"
 #include "overlay.h"
@@ -157,6 +158,24 @@ std::string TellersTable(const Calibration& c)
 	if (!c.geometry_alone.states.empty())
 		out += "<p>Geometry alone sees a pupil magnification of " + WithSigma(c.geometry_alone.pupil_magnification, "") + ".</p>\n";
 	return out;
+}
+
+std::string EffectsTable(const Calibration& c)
+{
+	if (c.effects.empty())
+		return "";
+	Rows rows{ { "effect", "value ± sigma", "significance", "error without", "with it", "of", "written", "why" } };
+	for (const Effect& e : c.effects)
+	{
+		const bool known = e.failure.empty();
+		std::string values;
+		for (const auto& [name, value] : e.values)
+			values += (values.empty() ? "" : "<br/>") + Escape(name) + " " + (value.sigma > 0 ? WithSigma(value, "") : fmt::format("{:g}", value.value));
+		rows.push_back({ Escape(e.name), known && !values.empty() ? values : "–", known && e.sigmas > 0 ? Number(e.sigmas, 1) + " sigma" : "–",
+			known && e.held_out_without > 0 ? fmt::format("{:.3g}", e.held_out_without) : "–", known && e.held_out_with > 0 ? fmt::format("{:.3g}", e.held_out_with) : "–",
+			known && e.held_out_with > 0 ? Escape(e.unit) : "–", e.used ? "<b>yes</b>" : "no", Escape(e.why) });
+	}
+	return "<div class=\"wide effects\">" + html::Table(rows) + "</div>\n";
 }
 
 std::string ModelsTable(const Calibration& c)

@@ -3,6 +3,7 @@
 #include "shading.h"
 
 #include "error.h"
+#include "robust.h"
 
 #include <Eigen/Dense>
 #include <opencv2/imgproc.hpp>
@@ -69,12 +70,6 @@ Ratios Collect(const cv::Mat& a, const cv::Mat& b, int order)
 	return r;
 }
 
-double Median(std::vector<double> v)
-{
-	std::nth_element(v.begin(), v.begin() + long(v.size() / 2), v.end());
-	return v[v.size() / 2];
-}
-
 }
 
 double Shading::At(double column, double row, cv::Size size) const
@@ -95,10 +90,7 @@ Shading FitShading(const cv::Mat& a, const cv::Mat& b, int order)
 	for (int round = 0; round < 30; ++round)
 	{
 		const Eigen::VectorXd residual = r.ratio - r.terms * c;
-		std::vector<double> absolute(static_cast<size_t>(residual.size()));
-		for (long k = 0; k < residual.size(); ++k)
-			absolute[static_cast<size_t>(k)] = std::abs(residual[k]);
-		const double scale = TUKEY * std::max(1.4826 * Median(absolute), 1e-6 * std::abs(c[0]));
+		const double scale = TUKEY * std::max(RobustSigma({ residual.data(), residual.data() + residual.size() }), 1e-6 * std::abs(c[0]));
 		Eigen::VectorXd weight(residual.size());
 		for (long k = 0; k < residual.size(); ++k)
 		{

@@ -3,6 +3,7 @@
 #include "solve_geometry.h"
 
 #include "error.h"
+#include "robust.h"
 
 #include <ceres/ceres.h>
 #include <fmt/format.h>
@@ -183,7 +184,7 @@ bool Sigmas(ceres::Problem& problem, Geometry& g)
 	return true;
 }
 
-/// 1.4826 median |residual| of the coordinates: what the model leaves out, or the noise.
+/// RobustSigma of the coordinates: what the model leaves out, or the noise.
 double ModelSigma(const Task& task, const Geometry& g)
 {
 	std::vector<double> r;
@@ -192,11 +193,10 @@ double ModelSigma(const Task& task, const Geometry& g)
 			for (const Corner& c : task.states[s].photos[p].corners)
 			{
 				const Point at = Reproject(task, g, s, p, c.column, c.row);
-				r.push_back(std::abs(at[0] - c.x));
-				r.push_back(std::abs(at[1] - c.y));
+				r.push_back(at[0] - c.x);
+				r.push_back(at[1] - c.y);
 			}
-	std::nth_element(r.begin(), r.begin() + long(r.size() / 2), r.end());
-	return std::max(1.4826 * r[r.size() / 2], 1e-4);
+	return std::max(RobustSigma(std::move(r)), 1e-4);
 }
 
 /// Fixes the principal points that the photographs leave open. True: some were fixed.
@@ -239,6 +239,15 @@ bool Fit(const Task& task, double model_sigma, Geometry& g)
 	if (g.shared_poses)
 		std::fill(g.poses.begin() + 1, g.poses.end(), g.poses[0]);
 	return regular;
+}
+
+/// Any coefficient is 2 sigma from 0.
+bool IsDistorted(const Geometry& g)
+{
+	for (size_t k = 0; k < g.distortion.size(); ++k)
+		if (std::abs(g.distortion[k]) > 2 * g.distortion_sigma[k])
+			return true;
+	return false;
 }
 
 }
@@ -319,11 +328,13 @@ Geometry SelectGeometry(const Task& task, GeometryOptions options)
 {
 	options.terms = 0;
 	Geometry best = SolveGeometry(task, options);
+	if (!options.may_distort)
+		return best;
 	for (const int terms : { 1, 2, 4, 5 })
 	{
 		options.terms = terms;
 		Geometry next = SolveGeometry(task, options);
-		if (next.rms > 0.985 * best.rms)
+		if (next.rms > 0.985 * best.rms || !IsDistorted(next))
 			break;
 		best = next;
 	}

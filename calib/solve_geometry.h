@@ -22,6 +22,7 @@ struct GeometryOptions
 	/// own the two compensate each other almost wholly (in photos-45mm: 14 px).
 	/// Needs as many photographs in every state.
 	bool shared_poses = false;
+	bool may_distort = true;   ///< SelectGeometry: false leaves it at no terms
 };
 
 /// Least squares of the reprojection over all photographs of all states: common image
@@ -33,7 +34,7 @@ struct GeometryOptions
 Geometry SolveGeometry(const Task& task, const GeometryOptions& options);
 
 /// The smallest distortion model after which the next larger one lowers the RMS by less
-/// than 1.5 %: coefficients that only fit noise spoil the picture beyond the board.
+/// than 1.5 % or has no coefficient that is 2 sigma from 0: coefficients that only fit noise spoil the picture beyond the board.
 /// `options.terms` is not used.
 Geometry SelectGeometry(const Task& task, GeometryOptions options);
 

@@ -3,6 +3,7 @@
 #include "solve_joint.h"
 
 #include "fill_solution.h"
+#include "robust.h"
 #include "solve_geometry.h"
 
 #include <tilt_lens/optics.h>
@@ -28,16 +29,14 @@ Unknowns UnknownsOf(const Solution& s)
 	return x;
 }
 
-/// 1.4826 median |r|: the standard deviation, deaf to outliers.
 ModelError ErrorOf(const std::vector<std::array<double, 2>>& residuals)
 {
 	const auto scale = [&](size_t k)
 	{
 		std::vector<double> r;
 		for (const auto& residual : residuals)
-			r.push_back(std::abs(residual[k]));
-		std::nth_element(r.begin(), r.begin() + long(r.size() / 2), r.end());
-		return 1.4826 * r[r.size() / 2];
+			r.push_back(residual[k]);
+		return RobustSigma(std::move(r));
 	};
 	return { std::max(scale(0), 0.002), std::max(scale(1), 0.01) };
 }

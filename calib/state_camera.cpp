@@ -67,6 +67,12 @@ struct Node
 			Fail(fmt::format("is {}, not above 0", x));
 		return x;
 	}
+	bool Flag() const
+	{
+		if (!json->is_boolean())
+			Fail("is neither true nor false");
+		return json->get<bool>();
+	}
 	int Count() const
 	{
 		if (!json->is_number_integer() || json->get<long>() < 1 || json->get<long>() > 1000000)
@@ -107,6 +113,37 @@ Node FindState(const Node& top, const std::string& name)
 	throw UsageError(fmt::format("--state {}: {} has the states {}", name, top.file, names));
 }
 
+bool Used(const Node& effects, const std::string& name)
+{
+	for (size_t i = 0; i < effects.json->size(); ++i)
+		if (effects.At(i)["name"].Text() == name)
+			return effects.At(i)["used"].Flag();
+	return false;
+}
+
+std::array<double, 2> Pair(const Node& node, const char* first, const char* second) { return { node[first].Number(), node[second].Number() }; }
+
+/// What the list `effects` says is used. Files of import, and old ones, have none.
+void ReadEffects(const Node& top, StateCamera& c)
+{
+	if (!top.json->contains("effects"))
+		return;
+	const Node effects = top["effects"];
+	effects.NeedList(0);
+	c.natural_vignetting = Used(effects, "vignetting_natural");
+	if (Used(effects, "vignetting_optical"))
+		c.rim_mm = Pair(top["vignetting"]["optical"], "radius_mm", "distance_mm");
+	if (Used(effects, "chromatic_lateral"))
+		c.lateral = Pair(top["chromatic"], "lateral_red", "lateral_blue");
+	if (Used(effects, "chromatic_axial"))
+		c.axial_per_mm = Pair(top["chromatic"], "axial_red_per_mm", "axial_blue_per_mm");
+	if (!Used(effects, "blades"))
+		return;
+	const Node blades = top["blades"];
+	c.blades = { blades["count"].Count(), blades["rotation_deg"].Number(), blades["curvature"].Number() };
+	c.aperture_diameter_mm = blades["aperture_diameter_mm"].Positive();
+}
+
 Json NumberOrNull(double x) { return std::isfinite(x) ? Json(x) : Json(); }
 
 }
@@ -143,6 +180,7 @@ StateCamera ReadStateCamera(const std::string& file, const std::string& name)
 	c.focus_distance_mm = state["focus_distance_mm"].NumberOr(INFINITY_MM);
 	c.aperture_diameter_mm = top["aperture_diameter_mm"].NumberOr(0);
 	c.field_curvature_per_mm = top["field_curvature_per_mm"].NumberOr(0);
+	ReadEffects(top, c);
 	return c;
 }
 

@@ -3,8 +3,10 @@
 #ifndef TILTCAL_STATE_CAMERA_H
 #define TILTCAL_STATE_CAMERA_H
 
+#include "calibration.h"
 #include "camera.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +28,11 @@ struct StateCamera
 	double focus_distance_mm = 0;      ///< on the axis; infinite where it is that, or unknown
 	double aperture_diameter_mm = 0;   ///< 0 where it is unknown
 	double field_curvature_per_mm = 0;
+	// Effects that the calibration writes; empty or false: not.
+	bool natural_vignetting = false;
+	std::optional<std::array<double, 2>> rim_mm;            ///< R, Z
+	std::optional<std::array<double, 2>> lateral, axial_per_mm;   ///< red, blue
+	FixedBlades blades;                ///< the aperture's diameter is that of the circle through their corners
 
 	double ImageDistancePx() const { return image_distance_mm / pitch_mm; }
 	Vec3<double> LensNormal() const;

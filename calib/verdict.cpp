@@ -4,6 +4,7 @@
 
 #include "blur_fit.h"
 #include "calibrate.h"
+#include "robust.h"
 
 #include <fmt/format.h>
 #include <tilt_lens/field_curvature.h>
@@ -150,8 +151,7 @@ private:
 					noise.push_back(e.blur_sigma);
 		if (noise.empty())
 			return;
-		std::nth_element(noise.begin(), noise.begin() + long(noise.size() / 2), noise.end());
-		const double typical = noise[noise.size() / 2];
+		const double typical = Median(std::move(noise));
 		if (c.solution.rms_blur > 3 * typical)
 			Say(Grade::GOOD, fmt::format("the blur fits to {:.2f} px, its noise is {:.2f} px: what limits the result are aberrations that the model {} does not have, and the sigmas hold them only "
 				"as far as they scatter", c.solution.rms_blur, typical, c.solution.model));

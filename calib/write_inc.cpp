@@ -4,10 +4,13 @@
 
 #include "calibrate.h"
 #include "camera_block.h"
+#include "effects.h"
 #include "files.h"
+#include "fixed_blades.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace tiltcal
@@ -41,6 +44,66 @@ std::string PhotoPose(const std::string& prefix, size_t number, const Photo& pho
 		name, Vector(location), name, Vector(location + forward), name, Vector(back(0, 1, 0)));
 }
 
+/// For the comment of a number.
+std::string Unused(const Calibration& c, const std::string& effect)
+{
+	const auto found = std::find_if(c.effects.begin(), c.effects.end(), [&](const Effect& e) { return e.name == effect; });
+	return found == c.effects.end() || found->used ? "" : "; not used: " + found->why;
+}
+
+/// The circle through the corners of blades is wider than the disc that was fitted.
+std::string ApertureText(const Calibration& c, const Solution& solution, const std::string& prefix)
+{
+	const double widening = Uses(c, "blades") ? WideningForBlades(c.task.blades) : 1;
+	const Estimate& d = solution.aperture_diameter;
+	return Declare(prefix, "Aperture_Diameter", { d.value * widening, d.sigma * widening },
+		widening > 1 ? fmt::format("mm, of the circle through the blades' corners: blurs edges like a disc of {:.10g} mm", d.value) : "mm");
+}
+
+/// Those of vignetting and chromatic aberration: all that was estimated.
+std::string EffectNumbers(const Calibration& c, const std::string& prefix)
+{
+	std::string out;
+	const FalloffAnswer& falloff = FalloffOf(c);
+	if (falloff.rim_seen)
+	{
+		const std::string unused = Unused(c, "vignetting_optical");
+		out += Declare(prefix, "Rim_Radius", falloff.radius_mm, "mm, of the rim that vignettes" + unused);
+		out += Declare(prefix, "Rim_Distance", falloff.distance_mm, "mm, before the lens" + unused);
+	}
+	if (!c.chromatic.failure.empty())
+		return out;
+	const char* const colours[] = { "Red", "Blue" };
+	for (size_t k = 0; k < 2; ++k)
+		out += Declare(prefix, std::string("Lateral_") + colours[k], c.chromatic.lateral[k], "of chromatic aberration" + Unused(c, "chromatic_lateral"));
+	for (size_t k = 0; k < 2; ++k)
+		out += Declare(prefix, std::string("Axial_") + colours[k], c.chromatic.axial_per_mm[k], "1/mm, of chromatic aberration" + Unused(c, "chromatic_axial"));
+	return out;
+}
+
+/// The words of the effects used, by the names of their numbers.
+EffectWords WordsOf(const Calibration& c, const std::string& p)
+{
+	EffectWords words;
+	if (Uses(c, "field_curvature"))
+		words.field_curvature = p + "_Field_Curvature";
+	if (Uses(c, "distortion"))
+	{
+		words.distortion = fmt::format("{0}_K1, {0}_K2, {0}_P1, {0}_P2, {0}_K3", p);
+		words.distortion_only_if = "TiltCal_Distortion";
+	}
+	words.natural_vignetting = Uses(c, "vignetting_natural");
+	if (Uses(c, "vignetting_optical"))
+		words.optical_vignetting = fmt::format("{0}_Rim_Radius, {0}_Rim_Distance", p);
+	if (Uses(c, "chromatic_lateral"))
+		words.lateral = fmt::format("{0}_Lateral_Red, {0}_Lateral_Blue", p);
+	if (Uses(c, "chromatic_axial"))
+		words.axial = fmt::format("{0}_Axial_Red, {0}_Axial_Blue", p);
+	if (Uses(c, "blades"))
+		words.blades = fmt::format("{} rotation {:.10g} curvature {:.10g}", c.task.blades.count, c.task.blades.rotation_deg, c.task.blades.curvature);
+	return words;
+}
+
 /// Every number of one camera.
 std::string Numbers(const Calibration& c, const Solution& solution, const Geometry& g, size_t s, const std::string& prefix)
 {
@@ -50,7 +113,7 @@ std::string Numbers(const Calibration& c, const Solution& solution, const Geomet
 	const Point& cs = g.principal_point_sigma[s];
 	std::string out;
 	out += Declare(prefix, "Image_Distance", solution.w_mm, "mm");
-	out += Declare(prefix, "Aperture_Diameter", solution.aperture_diameter, "mm");
+	out += ApertureText(c, solution, prefix);
 	out += Declare(prefix, "Focus_Distance", lens.focus_distance, "mm, along the axis");
 	out += Declare(prefix, "Focal_Length", lens.focal_length, "mm");
 	out += Declare(prefix, "Focal_Plane_Tilt", lens.focal_plane_tilt, "degrees");
@@ -61,11 +124,13 @@ std::string Numbers(const Calibration& c, const Solution& solution, const Geomet
 	out += Declare(prefix, "Shift_Y", { shift[1] * pitch, cs[1] * pitch }, "mm");
 	out += Declare(prefix, "Principal_Point_X", { cp[0], cs[0] }, "px");
 	out += Declare(prefix, "Principal_Point_Y", { cp[1], cs[1] }, "px");
-	out += Declare(prefix, "Field_Curvature", solution.field_curvature, "1/mm, of the bowl that the plane of focus touches on the lens axis");
+	if (solution.model == "curved")
+		out += Declare(prefix, "Field_Curvature", solution.field_curvature, "1/mm, of the bowl that the plane of focus touches on the lens axis" + Unused(c, "field_curvature"));
 	out += Declare(prefix, "Psf_Floor", solution.psf_floor_px, "px, the lens's own blur, not rendered");
 	const char* const names[] = { "K1", "K2", "P1", "P2", "K3" };
-	for (size_t k = 0; k < 5; ++k)
-		out += Declare(prefix, names[k], { g.distortion[k], g.distortion_sigma[k] }, "");
+	for (size_t k = 0; k < 5 && g.distortion_terms > 0; ++k)
+		out += Declare(prefix, names[k], { g.distortion[k], g.distortion_sigma[k] }, k ? "" : "of the distortion" + Unused(c, "distortion"));
+	out += EffectNumbers(c, prefix);
 	out += fmt::format("#declare {}_Photos = {};\n", prefix, c.task.states[s].photos.size());
 	const size_t photos = c.task.states[s].photos.size();
 	for (size_t p = 0; p < photos; ++p)
@@ -80,14 +145,11 @@ std::string Numbers(const Calibration& c, const Solution& solution, const Geomet
 	return out;
 }
 
-std::string Macro(const Calibration& c, const std::string& p, bool distorted)
+std::string Macro(const Calibration& c, const std::string& p)
 {
 	CameraBlock block{ "focal_plane_tilt " + p + "_Focal_Plane_Tilt", p + "_Tilt_Direction", p + "_Focus_Distance", p + "_Image_Distance",
 		p + "_Shift_X", p + "_Shift_Y", p + "_Aperture_Diameter", "", "" };
-	if (c.solution.model == "curved")
-		block.effects += fmt::format("\t\tfield_curvature {}_Field_Curvature\n", p);
-	if (distorted)
-		block.effects += fmt::format("#if (TiltCal_Distortion)\n\t\tdistortion {0}_K1, {0}_K2, {0}_P1, {0}_P2, {0}_K3\n#end\n", p);
+	block.effects = EffectLines(WordsOf(c, p));
 	block.place = fmt::format("\tlocation Location\n\tdirection {}_Image_Distance*z\n\tright {:.10g}*x\n\tup {:.10g}*y\n\tsky Sky\n\tlook_at Look_At\n",
 		p, c.task.width * c.task.pitch_mm, c.task.height * c.task.pitch_mm);
 	return fmt::format(
@@ -108,7 +170,7 @@ std::string CameraInc(const Calibration& c, size_t s)
 {
 	const std::string& name = c.task.states[s].name;
 	const std::string p = "TiltCal_" + name;
-	const bool distorted = MainGeometry(c).distortion_terms > 0;
+	const bool distorted = Uses(c, "distortion");
 	std::string out = fmt::format(
 		"// camera-{}.inc, written by tiltcal {} (model {}). World unit: 1 mm.\n"
 		"// Render at {} x {} pixels or any size of this aspect ratio.\n"
@@ -125,7 +187,7 @@ std::string CameraInc(const Calibration& c, size_t s)
 	out += Numbers(c, c.render, RenderGeometry(c), s, p);
 	if (distorted)
 		out += "\n#end\n\n";
-	return out + Macro(c, p, distorted);
+	return out + Macro(c, p);
 }
 
 }

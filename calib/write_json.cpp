@@ -3,7 +3,9 @@
 #include "write_json.h"
 
 #include "calibrate.h"
+#include "effects.h"
 #include "exif_check.h"
+#include "fixed_blades.h"
 #include "verdict.h"
 
 #include <nlohmann/json.hpp>
@@ -135,6 +137,58 @@ Json SolutionJson(const Calibration& c, const Solution& solution, const Geometry
 	return json;
 }
 
+Json Rounded(double x) { return std::isfinite(x) && x > 0 ? Json(x) : Json(); }
+
+Json VignettingJson(const Calibration& c)
+{
+	const Vignetting& v = c.vignetting;
+	const FalloffAnswer& a = FalloffOf(c);
+	Json json;
+	if (!v.failure.empty())
+		return { { "failure", v.failure } };
+	json["natural"] = Uses(c, "vignetting_natural");
+	if (a.rim_seen)
+	{
+		Put(json["optical"], "radius", "_mm", a.radius_mm);
+		Put(json["optical"], "distance", "_mm", a.distance_mm);
+		Put(json["optical"], "darkening", "", a.darkening);
+		json["optical"]["used"] = Uses(c, "vignetting_optical");
+	}
+	json["told_by"] = v.flat_field ? "flat fields" : "white squares";
+	json["patches"] = a.points.size();
+	json["rms_percent"] = 100 * a.rms;
+	const char* const kinds[] = { "none", "natural", "optical", "both" };
+	for (size_t k = 0; k < v.answers.size(); ++k)
+		json["held_out_percent"][kinds[k]] = Rounded(100 * v.answers[k].held_out);
+	json["gains"] = Json::array();
+	for (const FalloffGain& g : a.gains)
+		json["gains"].push_back({ { "state", c.task.states[g.state].name },
+			{ "file", v.flat_field ? c.task.flat_fields[g.photo].file : c.task.states[g.state].photos[g.photo].file }, { "gain", g.gain } });
+	return json;
+}
+
+Json ChromaticJson(const Calibration& c)
+{
+	if (!c.chromatic.failure.empty())
+		return { { "failure", c.chromatic.failure } };
+	Json json;
+	Put(json, "lateral_red", "", c.chromatic.lateral[0]);
+	Put(json, "lateral_blue", "", c.chromatic.lateral[1]);
+	Put(json, "axial_red", "_per_mm", c.chromatic.axial_per_mm[0]);
+	Put(json, "axial_blue", "_per_mm", c.chromatic.axial_per_mm[1]);
+	json["edges"] = c.chromatic.edges;
+	return json;
+}
+
+Json EffectsJson(const Calibration& c)
+{
+	Json list = Json::array();
+	for (const Effect& e : c.effects)
+		list.push_back({ { "name", e.name }, { "used", e.used }, { "sigmas", e.failure.empty() ? Rounded(e.sigmas) : Json() }, { "held_out_without", Rounded(e.held_out_without) },
+			{ "held_out_with", Rounded(e.held_out_with) }, { "unit", e.unit }, { "why", e.why } });
+	return list;
+}
+
 /// What --board, --target, --square and --circle-diameter said.
 Json BoardJson(const Board& board)
 {
@@ -154,6 +208,12 @@ std::string CalibrationJson(const Calibration& c)
 	json["board"] = BoardJson(c.task.board);
 	json["frames"] = "camera: x right, y up, z forward; board: origin at the first inner corner or circle's centre, x along the columns, y up the rows, z into it; "
 		"X_camera = rotation X_board + translation_mm; pixel centres at integers, (0, 0) top left";
+	json["effects"] = EffectsJson(c);
+	json["vignetting"] = VignettingJson(c);
+	json["chromatic"] = ChromaticJson(c);
+	if (c.task.blades.count)
+		json["blades"] = { { "count", c.task.blades.count }, { "rotation_deg", c.task.blades.rotation_deg }, { "curvature", c.task.blades.curvature },
+			{ "aperture_diameter_mm", c.solution.aperture_diameter.value * WideningForBlades(c.task.blades) } };
 	if (c.paper.failure.empty())
 		json["comparison"]["paper"] = SolutionJson(c, c.paper, c.paper_geometry);
 	else

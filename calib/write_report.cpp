@@ -3,6 +3,7 @@
 #include "write_report.h"
 
 #include "calibrate.h"
+#include "effects.h"
 #include "files.h"
 #include "gnuplot.h"
 #include "image_io.h"
@@ -171,6 +172,8 @@ std::string SummaryTable(const Calibration& c)
 	out += fmt::format("; blur {:.3f} px RMS\n", c.solution.rms_blur);
 	if (c.solution.model == "curved")
 		out += CurvatureLine(c.solution);
+	if (!c.effects.empty())
+		out += EffectsText(c);
 	if (!c.blur_alone.empty() && c.task.states.size() > 1)
 		out += Tellers(c);
 	if (!c.compared.empty())

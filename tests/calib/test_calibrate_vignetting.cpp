@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// Vignetting recovered from white patches and flat fields of a lens that is known.
+
+#include "bright_patches.h"
+#include "effects.h"
+#include "error.h"
+#include "measure.h"
+#include "shaded_lens.h"
+#include "thin_lens_picture.h"
+#include "vignetting.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+using namespace tiltcal;
+using synthetic::Lens;
+using synthetic::Shade;
+
+namespace
+{
+
+const Shade RIM{ true, 15, 33, 0 };
+
+std::vector<Lens> TiltedBothWays()
+{
+	Lens up, down;
+	up.tilt = 5;
+	down.tilt = -5;
+	return { Lens(), up, down };
+}
+
+Calibration Estimated(Calibration c)
+{
+	c.vignetting = EstimateVignetting(c);
+	ChooseEffects({}, c);
+	return c;
+}
+
+/// The exit code it ends with.
+template<typename Function>
+int CodeOf(const Function& function)
+{
+	try
+	{
+		function();
+	}
+	catch (const Error& e)
+	{
+		return e.Code();
+	}
+	return EXIT_DONE;
+}
+
+double Off(const Estimate& e, double truth) { return std::abs(e.value - truth) / e.sigma; }
+
+}
+
+// 2.6 sigma: six numbers are looked at in all, of which one beyond 2 would be no surprise; the seed is fixed.
+TEST(CalibrateVignetting, FindsTheRimFromTiltedStates)
+{
+	const Calibration c = Estimated(synthetic::Shaded(TiltedBothWays(), RIM, 0.005, 1));
+	ASSERT_EQ(c.vignetting.failure, "");
+	const FalloffAnswer& found = FalloffOf(c);
+	EXPECT_TRUE(Uses(c, "vignetting_natural"));
+	EXPECT_TRUE(Uses(c, "vignetting_optical"));
+	EXPECT_LT(Off(found.radius_mm, 15), 2.6) << found.radius_mm.value << " +- " << found.radius_mm.sigma;
+	EXPECT_LT(Off(found.distance_mm, 33), 2.6) << found.distance_mm.value << " +- " << found.distance_mm.sigma;
+	EXPECT_LT(found.radius_mm.sigma, 0.5);     // half a per cent of noise on some 400 patches: 3 %
+	EXPECT_NEAR(found.rms, 0.005, 0.001);      // the noise that was put in
+	EXPECT_GT(found.darkening.value, 0.1);
+}
+
+TEST(CalibrateVignetting, UnevenLightIsNotTakenForTheLens)
+{
+	Shade lit = RIM;
+	lit.gradient = 0.2;
+	const Calibration c = Estimated(synthetic::Shaded(TiltedBothWays(), lit, 0.005, 2));
+	const FalloffAnswer& found = FalloffOf(c);
+	EXPECT_TRUE(Uses(c, "vignetting_natural"));
+	EXPECT_TRUE(Uses(c, "vignetting_optical"));
+	EXPECT_LT(Off(found.radius_mm, 15), 2.6) << found.radius_mm.value << " +- " << found.radius_mm.sigma;
+	EXPECT_LT(Off(found.distance_mm, 33), 2.6) << found.distance_mm.value << " +- " << found.distance_mm.sigma;
+}
+
+// Standardised errors of R, Z and the darkening over 30 sets of noise: their RMS is 1 where the sigmas are honest. 30 numbers scatter by 13 %, and the larger
+// of two sigmas (covariance, jackknife) is some 10 % too large.
+TEST(CalibrateVignetting, SigmasAreHonest)
+{
+	const Calibration truth = synthetic::Shaded(TiltedBothWays(), RIM, 0, 1, 3);
+	double squares[2] = { 0, 0 };
+	const unsigned runs = 30;
+	std::mt19937 random(1);
+	std::normal_distribution<double> normal(0, 0.01);
+	for (unsigned run = 0; run < runs; ++run)
+	{
+		Calibration c = truth;
+		for (State& state : c.task.states)
+			for (Photo& photo : state.photos)
+				for (BrightPatch& p : photo.white)
+				{
+					p.value *= 1 + normal(random);
+					p.sigma = 0.01 * p.value;
+				}
+		const Vignetting v = EstimateVignetting(c);
+		const FalloffAnswer& found = v.answers[FalloffKind(true, true)];
+		squares[0] += std::pow(Off(found.radius_mm, 15), 2) / runs;
+		squares[1] += std::pow(Off(found.distance_mm, 33), 2) / runs;
+	}
+	for (const double s : squares)
+	{
+		EXPECT_GT(std::sqrt(s), 0.6);
+		EXPECT_LT(std::sqrt(s), 1.35);
+	}
+}
+
+TEST(CalibrateVignetting, NothingIsWrittenWhereNothingDarkens)
+{
+	Shade none;
+	none.natural = false;
+	const Calibration c = Estimated(synthetic::Shaded(TiltedBothWays(), none, 0.005, 3));
+	EXPECT_FALSE(Uses(c, "vignetting_natural")) << EffectsText(c);
+	EXPECT_FALSE(Uses(c, "vignetting_optical")) << EffectsText(c);
+}
+
+TEST(CalibrateVignetting, NaturalFallOffAloneHasNoRim)
+{
+	const Calibration c = Estimated(synthetic::Shaded(TiltedBothWays(), Shade(), 0.005, 4));
+	EXPECT_TRUE(Uses(c, "vignetting_natural")) << EffectsText(c);
+	EXPECT_FALSE(Uses(c, "vignetting_optical")) << EffectsText(c);
+}
+
+// One picture of 1040 cells, without a photograph that could be left out: it is left out by quarters.
+TEST(CalibrateVignetting, FlatFieldsTellItBetterThanTheBoard)
+{
+	Calibration c = synthetic::Shaded(TiltedBothWays(), Shade{ false, 0, 0, 0.2 }, 0.005, 5);   // the board would say something else
+	for (const bool several : { false, true })
+	{
+		c.task.flat_fields.clear();
+		for (size_t s = 0; s < (several ? 3u : 1u); ++s)
+			c.task.flat_fields.push_back(synthetic::ShadedField(TiltedBothWays()[s], s, RIM, 0.005, unsigned(s + 1)));
+		const Calibration e = Estimated(c);
+		const FalloffAnswer& found = FalloffOf(e);
+		EXPECT_TRUE(e.vignetting.flat_field);
+		EXPECT_TRUE(Uses(e, "vignetting_natural")) << EffectsText(e);
+		EXPECT_TRUE(Uses(e, "vignetting_optical")) << EffectsText(e);
+		EXPECT_LT(Off(found.radius_mm, 15), 2.6) << found.radius_mm.value << " +- " << found.radius_mm.sigma;
+		EXPECT_LT(Off(found.distance_mm, 33), 2.6) << found.distance_mm.value << " +- " << found.distance_mm.sigma;
+		EXPECT_LT(found.radius_mm.sigma, 0.3);
+	}
+}
+
+TEST(CalibrateVignetting, EffectsAskedForAreTakenOrRefused)
+{
+	Calibration c = synthetic::Shaded(TiltedBothWays(), RIM, 0.005, 1);
+	c.vignetting = EstimateVignetting(c);
+	ChooseEffects(ParseEffects("vignetting_optical"), c);
+	EXPECT_TRUE(Uses(c, "vignetting_optical"));
+	EXPECT_FALSE(Uses(c, "vignetting_natural"));
+	// A rim that must make up for the natural fall-off is another.
+	EXPECT_EQ(&FalloffOf(c), &c.vignetting.answers[FalloffKind(false, true)]);
+	ChooseEffects(ParseEffects("none"), c);
+	for (const Effect& e : c.effects)
+		EXPECT_FALSE(e.used) << e.name;
+	ChooseEffects(ParseEffects("all"), c);
+	EXPECT_TRUE(Uses(c, "vignetting_optical"));
+	EXPECT_FALSE(Uses(c, "blades"));   // nobody said how many
+	for (const char* const name : { "blades", "distortion", "field_curvature" })
+		EXPECT_EQ(CodeOf([&] { ChooseEffects(ParseEffects(std::string("vignetting_natural,") + name), c); }), EXIT_REFUSED) << name;
+	for (const char* const text : { "", "vignetting", "auto,none", "blades,", "Blades" })
+		EXPECT_EQ(CodeOf([&] { ParseEffects(text); }), EXIT_USAGE) << text;
+}
+
+TEST(CalibrateVignetting, ClippedWhiteIsNotBelieved)
+{
+	Calibration c = synthetic::Shaded(TiltedBothWays(), RIM, 0.005, 1);
+	for (State& state : c.task.states)
+		for (Photo& photo : state.photos)
+		{
+			photo.white.resize(8);
+			photo.white_saturated = 40;
+		}
+	c.vignetting = EstimateVignetting(c);
+	EXPECT_THAT(c.vignetting.failure, testing::HasSubstr("clipped"));
+	EXPECT_EQ(CodeOf([&] { ChooseEffects(ParseEffects("vignetting_natural"), c); }), EXIT_REFUSED);
+	ChooseEffects({}, c);
+	EXPECT_FALSE(Uses(c, "vignetting_natural"));
+}
+
+TEST(BrightPatches, ClippedAndDarkFlatFieldsAreRefused)
+{
+	const cv::Mat good(300, 400, CV_32FC1, cv::Scalar(0.7)), clipped(300, 400, CV_32FC1, cv::Scalar(1)), dark(300, 400, CV_32FC1, cv::Scalar(0.001));
+	EXPECT_EQ(MeasureFlatField(good, "x").size(), 40u * 30u);
+	EXPECT_EQ(CodeOf([&] { MeasureFlatField(clipped, "x"); }), EXIT_REFUSED);
+	EXPECT_EQ(CodeOf([&] { MeasureFlatField(dark, "x"); }), EXIT_REFUSED);
+	// One channel that is clipped spoils the colour, and with it the luminance.
+	const cv::Mat red(300, 400, CV_32FC3, cv::Scalar(0.3, 0.3, 1));
+	EXPECT_EQ(CodeOf([&] { MeasureFlatField(red, "x"); }), EXIT_REFUSED);
+	cv::Mat partly = good.clone();
+	partly.colRange(0, 100).setTo(1);
+	EXPECT_EQ(MeasureFlatField(partly, "x").size(), 30u * 30u);
+}
+
+// The light of the pattern's white, 0.8, times what TakePicture darkens; blurred edges must not reach into a patch. 0.3 %: the noise is 1 % a pixel, and
+// patches have 100 pixels and more.
+TEST(BrightPatches, WhiteSquaresAreAsBrightAsTheyWerePainted)
+{
+	const Board board = ParseBoard("9x7", 30);
+	synthetic::Scene scene;
+	scene.aperture = 12;
+	scene.noise = 0.01;
+	scene.vignetting = 1.5;
+	scene.lens_points = 150;
+	synthetic::Aim(scene, 105, 75, 520, 30, 40, 0);
+	const cv::Mat picture = synthetic::TakePicture(scene, synthetic::Checkerboard(9, 7, 30));
+	Photo photo;
+	for (int j = 0; j < board.InnerRows(); ++j)
+		for (int i = 0; i < board.InnerColumns(); ++i)
+		{
+			const Eigen::Vector2d p = synthetic::PixelOf(scene, 30 * i, 30 * j);
+			photo.corners.push_back({ i, j, p.x(), p.y(), 0.05 });
+		}
+	MeasureEdges(picture, board, photo);
+	MeasureWhite(picture, board, photo);
+	ASSERT_GE(photo.white.size(), 20u);   // of 31, some outside of the picture
+	double squares = 0;
+	for (const BrightPatch& p : photo.white)
+	{
+		const double dx = (p.u + 0.5) / scene.width - 0.5, dy = (p.v + 0.5) / scene.height - 0.5;
+		const double truth = 0.8 * (1 - (1 - 1 / scene.vignetting) * 2 * (dx * dx + dy * dy));
+		EXPECT_NEAR(p.value / truth, 1, 0.008) << p.board_column << " " << p.board_row;
+		squares += std::pow((p.value - truth) / p.sigma, 2) / double(photo.white.size());
+	}
+	EXPECT_GT(std::sqrt(squares), 0.4);
+	EXPECT_LT(std::sqrt(squares), 1.6);   // the brightness falls within a patch too
+}

@@ -1,0 +1,352 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// Chromatic aberration from the colours of edges; blades; what the writers make of the effects that are used.
+
+#include "calibrate.h"
+#include "camera_block.h"
+#include "chromatic_fit.h"
+#include "effects.h"
+#include "error.h"
+#include "files.h"
+#include "fixed_blades.h"
+#include "measure.h"
+#include "measure_colours.h"
+#include "pose.h"
+#include "shaded_lens.h"
+#include "thin_lens_picture.h"
+#include "vignetting.h"
+#include "write_inc.h"
+#include "write_json.h"
+
+#include <Eigen/Geometry>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <opencv2/imgcodecs.hpp>
+
+#include <cmath>
+#include <cstdlib>
+#include <random>
+
+using namespace tiltcal;
+using synthetic::Lens;
+using testing::HasSubstr;
+using testing::Not;
+
+namespace
+{
+
+const double RED = 3e-4, BLUE = -2e-4;   // 0.3 and 0.2 px at 1000 px from the axis
+
+/// Where a lens whose image is (1 + lateral) times as large about its axis puts what else is at (u, v): by turning into the
+/// lens's axes and back.
+Eigen::Vector2d Enlarged(const Lens& lens, double lateral, double u, double v)
+{
+	const double t = lens.tilt * M_PI / 180, phi = lens.direction * M_PI / 180;
+	const Eigen::Vector3d n(-std::sin(phi) * std::sin(t), -std::cos(phi) * std::sin(t), std::cos(t));
+	const Eigen::Matrix3d lens_from_camera = Eigen::Quaterniond::FromTwoVectors(n, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+	Eigen::Vector3d d = lens_from_camera * Eigen::Vector3d((u - lens.cx) * synthetic::PITCH, -(v - lens.cy) * synthetic::PITCH, lens.w);
+	d.head<2>() *= 1 + lateral;
+	d = lens_from_camera.transpose() * d;
+	return { lens.cx + d.x() / d.z() * lens.w / synthetic::PITCH, lens.cy - d.y() / d.z() * lens.w / synthetic::PITCH };
+}
+
+/// As synthetic::Shaded, with every third edge measured in three colours.
+Calibration Coloured(const std::vector<Lens>& lenses, double red, double blue, double noise, unsigned seed)
+{
+	Calibration c = synthetic::Shaded(lenses, { false, 0, 0, 0 }, 0.005, seed);
+	std::mt19937 random(seed);
+	std::normal_distribution<double> normal(0, noise);
+	c.solution.psf_floor_px = { 1, 0 };
+	for (size_t s = 0; s < lenses.size(); ++s)
+	{
+		c.geometry.poses.emplace_back();
+		for (Photo& photo : c.task.states[s].photos)
+		{
+			c.geometry.poses[s].push_back({ 0.5, 0, 0, -125, 87, 630 });   // for the blur only, which is the same in all colours here
+			photo.coloured = true;
+			for (size_t k = 0; k < photo.edges.size(); k += 3)
+			{
+				ColourEdge e;
+				e.green = photo.edges[k];
+				for (size_t i = 0; i < 2; ++i)
+				{
+					const Eigen::Vector2d moved = Enlarged(lenses[s], i ? blue : red, e.green.x, e.green.y) - Eigen::Vector2d(e.green.x, e.green.y);
+					e.shift[i] = moved.x() * e.green.nx + moved.y() * e.green.ny + normal(random);
+					e.shift_sigma[i] = noise;
+					e.widening[i] = normal(random);
+					e.widening_sigma[i] = noise;
+				}
+				photo.colours.push_back(e);
+			}
+		}
+	}
+	c.geometry.principal_point_sigma.assign(lenses.size(), { 0, 0 });
+	c.pinhole = c.geometry;
+	c.render = c.solution;
+	return c;
+}
+
+std::vector<Lens> Tilted()
+{
+	Lens up, aside;
+	up.tilt = 6;
+	aside.tilt = 5;
+	aside.direction = 90;
+	return { Lens(), up, aside };
+}
+
+double Off(const Estimate& e, double truth) { return std::abs(e.value - truth) / e.sigma; }
+
+Calibration Chosen(Calibration c, const char* effects = "auto")
+{
+	c.vignetting = EstimateVignetting(c);
+	c.chromatic = EstimateChromatic(c);
+	ChooseEffects(ParseEffects(effects), c);
+	return c;
+}
+
+}
+
+TEST(Chromatic, LateralIsFoundAboutTheTiltedAxis)
+{
+	const Calibration c = Chosen(Coloured(Tilted(), RED, BLUE, 0.03, 1));
+	EXPECT_LT(Off(c.chromatic.lateral[0], RED), 2) << c.chromatic.lateral[0].value << " +- " << c.chromatic.lateral[0].sigma;
+	EXPECT_LT(Off(c.chromatic.lateral[1], BLUE), 2) << c.chromatic.lateral[1].value << " +- " << c.chromatic.lateral[1].sigma;
+	EXPECT_LT(c.chromatic.lateral[0].sigma, 0.03 * RED);   // 0.03 px on 600 edges some 350 px from the axis
+	EXPECT_TRUE(Uses(c, "chromatic_lateral"));
+	EXPECT_FALSE(Uses(c, "chromatic_axial")) << EffectsText(c);
+}
+
+// Exact shifts give the exact numbers: the axis is the tilted lens's own. About the sensor's axis the error would be 3e-5 and more.
+TEST(Chromatic, LateralIsExactWithoutNoise)
+{
+	const Calibration c = Coloured(Tilted(), RED, BLUE, 1e-9, 1);
+	const Chromatic found = EstimateChromatic(c);
+	EXPECT_NEAR(found.lateral[0].value, RED, 1e-3 * RED);   // the slope is linear, the shift is not quite
+	EXPECT_NEAR(found.lateral[1].value, BLUE, 1e-3 * RED);
+}
+
+TEST(Chromatic, NothingIsWrittenWhereColoursAgree)
+{
+	const Calibration c = Chosen(Coloured(Tilted(), 0, 0, 0.03, 2));
+	EXPECT_FALSE(Uses(c, "chromatic_lateral"));
+	EXPECT_FALSE(Uses(c, "chromatic_axial"));
+	EXPECT_THAT(CameraInc(Chosen(Coloured(Tilted(), RED, BLUE, 0.03, 1)), 0), HasSubstr("chromatic lateral TiltCal_state0_Lateral_Red, TiltCal_state0_Lateral_Blue\n"));
+	EXPECT_THAT(CameraInc(c, 0), Not(HasSubstr("\tchromatic")));
+	EXPECT_THAT(CameraInc(c, 0), HasSubstr("of chromatic aberration; not used: "));
+}
+
+namespace
+{
+
+/// A photograph in colour: red and blue through a lens whose image is larger or smaller about the picture's middle.
+struct ColourPicture
+{
+	Photo photo;
+	cv::Mat picture;
+};
+
+ColourPicture TakeColours(double direction, double red, double blue)
+{
+	synthetic::Scene scene;
+	scene.width = 480;
+	scene.height = 360;
+	scene.w_px = 600;
+	scene.aperture = 6;
+	scene.noise = 0.01;
+	scene.lens_points = 80;
+	synthetic::Aim(scene, 105, 75, 470, 30, direction, 0);
+	std::vector<cv::Mat> channels;
+	for (const double lateral : { blue, 0.0, red })
+	{
+		synthetic::Scene coloured = scene;
+		coloured.w_px *= 1 + lateral;
+		coloured.seed = unsigned(channels.size() + 1);
+		channels.push_back(synthetic::TakePicture(coloured, synthetic::Checkerboard(9, 7, 30)));
+	}
+	ColourPicture result;
+	cv::merge(channels, result.picture);
+	const Board board = ParseBoard("9x7", 30);
+	for (int j = 0; j < board.InnerRows(); ++j)
+		for (int i = 0; i < board.InnerColumns(); ++i)
+		{
+			const Eigen::Vector2d p = synthetic::PixelOf(scene, 30 * i, 30 * j);
+			result.photo.corners.push_back({ i, j, p.x(), p.y(), 0.05 });
+		}
+	MeasureEdges(channels[1], board, result.photo, { 30, 0 });
+	return result;
+}
+
+/// A task of such photographs, as if solved.
+Calibration FromPictures(std::vector<ColourPicture> pictures)
+{
+	Calibration c;
+	c.task.board = ParseBoard("9x7", 30);
+	c.task.pitch_mm = 0.02;
+	c.task.width = 480;
+	c.task.height = 360;
+	State state;
+	c.geometry.poses.emplace_back();
+	for (ColourPicture& p : pictures)
+	{
+		MeasureColours(p.picture, c.task.board, p.photo);
+		state.photos.push_back(p.photo);
+		c.geometry.poses[0].push_back({ 0.5, 0, 0, -105, 75, 470 });
+	}
+	c.task.states = { state };
+	c.geometry.w_px = 600;
+	c.geometry.principal_point = { { 239.5, 179.5 } };
+	c.geometry.lens_normal = { { 0, 0, 1 } };
+	c.solution.model = "plane";
+	c.solution.aperture_diameter = { 6, 0 };
+	c.solution.psf_floor_px = { 1, 0 };
+	c.solution.states.resize(1);
+	c.solution.states[0].q = { 0, 0, 1 / 500. };
+	return c;
+}
+
+}
+
+// 2.5 sigma: four numbers are looked at.
+TEST(Chromatic, PicturesInThreeColoursTellIt)
+{
+	const double red = 2e-3, blue = -1e-3;   // 0.4 and 0.2 px in this small picture
+	std::vector<ColourPicture> pictures{ TakeColours(10, red, blue), TakeColours(100, red, blue) };
+	const Chromatic found = EstimateChromatic(FromPictures(pictures));
+	ASSERT_EQ(found.failure, "");
+	EXPECT_LT(Off(found.lateral[0], red), 2.5) << found.lateral[0].value << " +- " << found.lateral[0].sigma;
+	EXPECT_LT(Off(found.lateral[1], blue), 2.5) << found.lateral[1].value << " +- " << found.lateral[1].sigma;
+	EXPECT_LT(found.lateral[0].sigma, 0.1 * red);
+
+	// JPEG stores the colours at half the size: 8-bit, coded, 4:2:0. It must not be surer than it is right.
+	for (ColourPicture& p : pictures)
+	{
+		cv::Mat coded, decoded;
+		cv::pow(p.picture, 1 / 2.2, coded);
+		coded.convertTo(coded, CV_8UC3, 255);
+		std::vector<uchar> jpeg;
+		cv::imencode(".jpg", coded, jpeg, { cv::IMWRITE_JPEG_QUALITY, 95 });
+		cv::imdecode(jpeg, cv::IMREAD_COLOR).convertTo(decoded, CV_32FC3, 1 / 255.);
+		cv::pow(decoded, 2.2, p.picture);
+	}
+	const Chromatic subsampled = EstimateChromatic(FromPictures(pictures));
+	EXPECT_LT(Off(subsampled.lateral[0], red), 2.5) << subsampled.lateral[0].value << " +- " << subsampled.lateral[0].sigma;
+	EXPECT_LT(Off(subsampled.lateral[1], blue), 2.5) << subsampled.lateral[1].value << " +- " << subsampled.lateral[1].sigma;
+}
+
+TEST(Chromatic, GreyPicturesTellNothing)
+{
+	const Board board = ParseBoard("9x7", 30);
+	ColourPicture p = TakeColours(10, 0, 0);
+	std::vector<cv::Mat> channels;
+	cv::split(p.picture, channels);
+	MeasureColours(channels[1], board, p.photo);
+	EXPECT_FALSE(p.photo.coloured);
+	cv::merge(std::vector<cv::Mat>{ channels[1], channels[1], channels[1] }, p.picture);
+	const Chromatic found = EstimateChromatic(FromPictures({ p }));
+	EXPECT_THAT(found.failure, HasSubstr("grey"));
+}
+
+// The second moment of a regular polygon of circumradius 1 about its centre, over its area: (2 + cos(2 pi/N)) / 6 (Steiner's theorem on its triangles).
+TEST(Blades, HaveTheDiscsSecondMoment)
+{
+	for (const int count : { 3, 5, 8, 64 })
+	{
+		const FixedBlades straight{ count, 17, 0 }, round{ count, 17, 1 }, between{ count, 0, 0.5 };
+		const double exact = (2 + std::cos(2 * M_PI / count)) / 6;
+		EXPECT_NEAR(MeanSquareRadius(straight), exact, 1e-5);   // 512 x 512 points
+		EXPECT_NEAR(WideningForBlades(straight), std::sqrt(0.5 / exact), 2e-5);
+		EXPECT_NEAR(WideningForBlades(round), 1, 1e-5);
+		EXPECT_GT(WideningForBlades(between), 1);
+		EXPECT_LT(WideningForBlades(between), WideningForBlades(straight));
+	}
+	EXPECT_EQ(WideningForBlades({}), 1);
+}
+
+TEST(Blades, AreTakenFromFixOrRefused)
+{
+	FixedBlades blades;
+	EXPECT_FALSE(TakeBlades("f_number=2.8", blades));
+	EXPECT_TRUE(TakeBlades("blades=8", blades));
+	EXPECT_TRUE(TakeBlades("blade_rotation=-22.5", blades));
+	EXPECT_TRUE(TakeBlades("blade_curvature=0.3", blades));
+	EXPECT_EQ(blades.count, 8);
+	EXPECT_EQ(blades.rotation_deg, -22.5);
+	EXPECT_EQ(blades.curvature, 0.3);
+	for (const char* const text : { "blades=2", "blades=65", "blades=7.5", "blades", "blades=x", "blade_rotation=inf", "blade_curvature=1.1", "blade_curvature=" })
+		EXPECT_THROW(TakeBlades(text, blades), Error) << text;
+	EXPECT_THROW(CheckBlades({ 0, 10, 0 }), Error);
+	EXPECT_NO_THROW(CheckBlades(blades));
+}
+
+TEST(EffectWords, AreAbsentUnlessGiven)
+{
+	EXPECT_EQ(EffectLines({}), "");
+	EffectWords words;
+	words.natural_vignetting = true;
+	words.axial = "1, 2";
+	EXPECT_EQ(EffectLines(words), "\t\tvignetting natural\n\t\tchromatic axial 1, 2\n");
+	words.lateral = "3, 4";
+	words.optical_vignetting = "5, 6";
+	words.blades = "7 rotation 0 curvature 1";
+	EXPECT_EQ(EffectLines(words), "\t\tvignetting natural\n\t\tvignetting optical 5, 6\n\t\tchromatic lateral 3, 4 axial 1, 2\n\t\tblades 7 rotation 0 curvature 1\n");
+}
+
+namespace
+{
+
+/// A whole calibration of exact measurements, with everything that can be used.
+Calibration Everything(const char* effects)
+{
+	Calibration c = Coloured(Tilted(), RED, BLUE, 0.03, 1);
+	const Calibration shaded = synthetic::Shaded(Tilted(), { true, 15, 33, 0 }, 0.005, 1);
+	c.task.states[0].photos[0].file = "a.png";
+	for (size_t s = 0; s < c.task.states.size(); ++s)
+		for (size_t p = 0; p < c.task.states[s].photos.size(); ++p)
+			c.task.states[s].photos[p].white = shaded.task.states[s].photos[p].white;
+	c.task.blades = { 8, 10, 0.25 };
+	return Calibrate(c.task, "plane", Poses::SHARED, Refinement::NONE, ParseEffects(effects));
+}
+
+}
+
+TEST(Effects, ReachTheIncAndThePoseThroughTheJson)
+{
+	const Calibration c = Everything("vignetting_natural,vignetting_optical,chromatic_lateral,chromatic_axial,blades");
+	const std::string inc = CameraInc(c, 1);
+	for (const char* const words : { "\t\tvignetting natural\n", "\t\tvignetting optical TiltCal_state1_Rim_Radius, TiltCal_state1_Rim_Distance\n", "chromatic lateral TiltCal_state1_Lateral_Red, TiltCal_state1_Lateral_Blue axial ",
+		"\t\tblades 8 rotation 10 curvature 0.25\n", "of the circle through the blades' corners" })
+		EXPECT_THAT(inc, HasSubstr(words));
+	for (const char* const words : { "distortion", "field_curvature" })
+		EXPECT_THAT(inc.substr(inc.find("tilt_lens {")), Not(HasSubstr(words)));
+
+	const std::string file = testing::TempDir() + "effects-calibration.json";
+	WriteText(file, CalibrationJson(c));
+	const StateCamera camera = ReadStateCamera(file, "state1");
+	EXPECT_TRUE(camera.natural_vignetting);
+	ASSERT_TRUE(camera.rim_mm && camera.lateral && camera.axial_per_mm);
+	EXPECT_EQ((*camera.rim_mm)[0], FalloffOf(c).radius_mm.value);
+	EXPECT_EQ((*camera.rim_mm)[1], FalloffOf(c).distance_mm.value);
+	EXPECT_EQ((*camera.lateral)[0], c.chromatic.lateral[0].value);
+	EXPECT_EQ((*camera.axial_per_mm)[1], c.chromatic.axial_per_mm[1].value);
+	EXPECT_EQ(camera.blades.count, 8);
+	EXPECT_NEAR(camera.aperture_diameter_mm, c.solution.aperture_diameter.value * WideningForBlades(c.task.blades), 1e-9);
+	const std::string block = PoseInc(camera, CameraPose(), 10);   // a scene unit of 10 mm
+	EXPECT_THAT(block, HasSubstr("vignetting natural\n"));
+	EXPECT_NEAR(std::atof(block.substr(block.find("vignetting optical ") + 19).c_str()), FalloffOf(c).radius_mm.value / 10, 1e-6);
+	EXPECT_NEAR(std::atof(block.substr(block.find(" axial ") + 7).c_str()), c.chromatic.axial_per_mm[0].value * 10, 1e-9);
+	EXPECT_THAT(block, HasSubstr("blades 8 rotation 10 curvature 0.25\n"));
+}
+
+TEST(Effects, NoneLeavesABareLens)
+{
+	const Calibration c = Everything("none");
+	const std::string inc = CameraInc(c, 1), block = inc.substr(inc.find("tilt_lens {"));
+	for (const char* const word : { "vignetting", "chromatic", "blades", "distortion", "field_curvature" })
+		EXPECT_THAT(block.substr(0, block.find('}')), Not(HasSubstr(word)));
+	const std::string file = testing::TempDir() + "none-calibration.json";
+	WriteText(file, CalibrationJson(c));
+	const StateCamera camera = ReadStateCamera(file, "");
+	EXPECT_FALSE(camera.natural_vignetting || camera.rim_mm || camera.lateral || camera.axial_per_mm || camera.blades.count);
+	EXPECT_EQ(camera.aperture_diameter_mm, c.solution.aperture_diameter.value);
+}
