@@ -4,12 +4,15 @@ global_settings { assumed_gamma 1 }
 #include "dragons.inc"
 
 camera {
-	tilt_lens { aperture_diameter Aperture denoise }
+	tilt_lens {
+		aperture_diameter Aperture
+		denoise
+	}
 	location Eye
 	right 16/9*x
 	angle View_Angle
 	look_at Aim
 	focal_point Head[Middle]
-	blur_samples 16, 128
-	variance 0.0001
+	blur_samples 8, 32
+	variance 0.0004
 }
