@@ -9,7 +9,7 @@ global_settings { assumed_gamma 1 }
 
 #switch (Case)
 	#case (1) #declare P = Upright_Plane[0]; #declare N = Upright_Plane[1]; #declare Title = "(a) untilted"; #break
-	#case (2) #declare P = Heads_Plane[0]; #declare N = Heads_Plane[1]; #declare Title = "(b) tilted, through three heads"; #break
+	#case (2) #declare P = Heads_Plane[0]; #declare N = Heads_Plane[1]; #declare Title = "(b) tilted"; #break
 	#case (3) #declare P = Oblique_Plane[0]; #declare N = Oblique_Plane[1]; #declare Title = "(c) oblique"; #break
 #end
 
@@ -56,7 +56,7 @@ global_settings { assumed_gamma 1 }
 #declare Lens_Ink = rgb <0.02, 0.25, 0.70>;
 #declare Front_Ink = rgb <0.72, 0.86, 0.74>;
 #declare Behind_Ink = rgb <0.93, 0.72, 0.66>;
-plane { y, 0 pigment { rgb <0.86, 0.84, 0.79> } finish { ambient 0.6 diffuse 0.28 } }
+plane { y, 0 pigment { rgb <0.86, 0.84, 0.79> } finish { ambient 0.95 diffuse 0 } }
 
 // Frustum, and its part whose focus is behind the lens: kappa = q . v along the middle row, zero at Critical.
 #declare Kappa_Left = vdot(Q, Axis - Slope*Right);
@@ -66,16 +66,16 @@ plane { y, 0 pigment { rgb <0.86, 0.84, 0.79> } finish { ambient 0.6 diffuse 0.2
 	Wedge(-Slope, Critical, Behind_Ink)
 	Wedge(Critical, Slope, Front_Ink)
 	Dashes(Eye, Eye + 34*(Axis + Critical*Right), 0.07, Ink)
-	Label("focus behind the lens", <-4.9, 0, -4.8>, 0.85, Focus_Ink)
-	Label("focus in front", <2.9, 0, -8.6>, 0.85, rgb <0.05, 0.30, 0.10>)
+	Label("focus behind the lens", <-3.5, 0, -0.4>, 0.85, Focus_Ink)
+	Label("focus in front", <2.3, 0, -7.6>, 0.85, rgb <0.05, 0.30, 0.10>)
 #else
 	Wedge(-Slope, Slope, Front_Ink)
 #end
 #for (Sign, -1, 1, 2)
-	Stroke(Eye, Eye + 34*(Axis + Sign*Slope*Right), 0.06, Ink)
-	Stroke(Eye, Eye - W*(Axis + Sign*Slope*Right), 0.06, Ink)
+	Stroke(Eye, Eye + 34*(Axis + Sign*Slope*Right), 0.08, Ink)
+	Stroke(Eye, Eye - W*(Axis + Sign*Slope*Right), 0.08, Ink)
 #end
-Dashes(Eye - W*Axis, Eye + 34*Axis, 0.04, Ink)
+Dashes(Eye - W*Axis, Eye + 34*Axis, 0.07, Ink)
 
 // Sensor, lens, plane of focus.
 #declare Sensor = Eye - W*Axis;
@@ -95,11 +95,11 @@ sphere { 0, 1 scale <1.1, 0.3, 0.24> rotate degrees(atan2(-Lens_Line.z, Lens_Lin
 	#declare Kb = vdot(B, Eye) - B.y*Eye.y;
 	#declare D = A.x*B.z - A.z*B.x;
 	#declare Meet = <(Ka*B.z - A.z*Kb)/D, 0, (A.x*Kb - Ka*B.x)/D>;
-	Dashes(Sensor, Meet, 0.06, Ink)
-	Dashes(Eye, Meet, 0.06, Lens_Ink)
+	Dashes(Sensor, Meet, 0.08, Ink)
+	Dashes(Eye, Meet, 0.08, Lens_Ink)
 	sphere { Flat(Meet) + Level*y, 0.16 pigment { Focus_Ink } finish { ambient 1 diffuse 0 } no_shadow }
 	#if (Case = 2)
-		Label("plane of focus", <-8.1, 0, -15.2>, 0.85, Focus_Ink)
+		Label("plane of focus", <-8.3, 0, -12.2>, 0.85, Focus_Ink)
 	#else
 		Label("plane of focus", <7.9, 0, -10.5>, 0.85, Focus_Ink)
 	#end
@@ -115,6 +115,6 @@ camera {
 	orthographic
 	location <0, 40, -4.4>
 	direction -y
-	right 40*z
-	up -22.5*x
+	right 44*z
+	up -24.75*x
 }
