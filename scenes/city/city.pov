@@ -8,15 +8,15 @@ camera {
 	tilt_lens {
 		#ifndef (Pinhole)
 			focal_plane_tilt -62          // the ground recedes upwards in the picture, this plane downwards
-			focal_distance 150
-			aperture_diameter 4.5
+			focal_distance 196
+			aperture_diameter 7
 			denoise
 		#end
 	}
-	location <-62, 92, -118>
+	location <-80, 118, -152>
 	right 16/9*x
-	angle 34
-	look_at <2, 0, -6>
-	blur_samples 8, 32
-	variance 0.0004
+	angle 35
+	look_at <4, 0, -4>
+	blur_samples 16, 64
+	variance 0.0002
 }

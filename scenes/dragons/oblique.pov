@@ -8,12 +8,12 @@ camera {
 	tilt_lens {
 		focal_plane Oblique_Plane[0], Oblique_Plane[1]
 		aperture_diameter Aperture
-		denoise
+		#if (Denoise) denoise #end
 	}
 	location Eye
 	right 16/9*x
 	angle View_Angle
 	look_at Aim
 	blur_samples 8, 32
-	variance 0.0004
+	variance 0.0003
 }

@@ -7,12 +7,12 @@ camera {
 	tilt_lens {
 		focal_points Head[Near], Head[Middle], Head[Far]
 		aperture_diameter Aperture
-		denoise
+		#if (Denoise) denoise #end
 	}
 	location Eye
 	right 16/9*x
 	angle View_Angle
 	look_at Aim
 	blur_samples 8, 32
-	variance 0.0004
+	variance 0.0003
 }

@@ -6,7 +6,7 @@ global_settings { assumed_gamma 1 }
 camera {
 	tilt_lens {
 		aperture_diameter Aperture
-		denoise
+		#if (Denoise) denoise #end
 	}
 	location Eye
 	right 16/9*x
@@ -14,5 +14,5 @@ camera {
 	look_at Aim
 	focal_point Head[Middle]
 	blur_samples 8, 32
-	variance 0.0004
+	variance 0.0003
 }

@@ -16,5 +16,5 @@ camera {
 	up 0.72*y
 	look_at <0, 1.55, 10>
 	blur_samples 8, 32
-	variance 0.0004
+	variance 0.0003
 }

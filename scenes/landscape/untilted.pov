@@ -16,5 +16,5 @@ camera {
 	look_at <0, 1.55, 10>
 	focal_point <0, 1.0, 7>
 	blur_samples 8, 32
-	variance 0.0004
+	variance 0.0003
 }
