@@ -46,7 +46,7 @@ global_settings { assumed_gamma 1 }
 #end
 #macro Wedge(V0, V1, Colour)              // the directions between two slopes of the middle row
 	triangle {
-		Flat(Eye) + 0.02*y, Flat(Eye + 34*(Axis + V0*Right)) + 0.02*y, Flat(Eye + 34*(Axis + V1*Right)) + 0.02*y
+		Flat(Eye) + 0.02*y, Flat(Eye + 36*(Axis + V0*Right)) + 0.02*y, Flat(Eye + 36*(Axis + V1*Right)) + 0.02*y
 		pigment { Colour } finish { ambient 0.9 diffuse 0 } no_shadow
 	}
 #end
@@ -65,17 +65,17 @@ plane { y, 0 pigment { rgb <0.86, 0.84, 0.79> } finish { ambient 0.95 diffuse 0 
 	#declare Critical = -vdot(Q, Axis)/vdot(Q, Right);
 	Wedge(-Slope, Critical, Behind_Ink)
 	Wedge(Critical, Slope, Front_Ink)
-	Dashes(Eye, Eye + 34*(Axis + Critical*Right), 0.07, Ink)
+	Dashes(Eye, Eye + 36*(Axis + Critical*Right), 0.07, Ink)
 	Label("focus behind the lens", <-3.5, 0, -0.4>, 0.85, Focus_Ink)
 	Label("focus in front", <2.3, 0, -7.6>, 0.85, rgb <0.05, 0.30, 0.10>)
 #else
 	Wedge(-Slope, Slope, Front_Ink)
 #end
 #for (Sign, -1, 1, 2)
-	Stroke(Eye, Eye + 34*(Axis + Sign*Slope*Right), 0.08, Ink)
+	Stroke(Eye, Eye + 36*(Axis + Sign*Slope*Right), 0.08, Ink)
 	Stroke(Eye, Eye - W*(Axis + Sign*Slope*Right), 0.08, Ink)
 #end
-Dashes(Eye - W*Axis, Eye + 34*Axis, 0.07, Ink)
+Dashes(Eye - W*Axis, Eye + 36*Axis, 0.07, Ink)
 
 // Sensor, lens, plane of focus.
 #declare Sensor = Eye - W*Axis;
@@ -87,7 +87,7 @@ sphere { 0, 1 scale <1.1, 0.3, 0.24> rotate degrees(atan2(-Lens_Line.z, Lens_Lin
 	Stroke(<-11, 0, P.z>, <11, 0, P.z>, 0.14, Focus_Ink)
 	Label("plane of focus", <-9.4, 0, P.z + 0.4>, 0.85, Focus_Ink)
 #else
-	Stroke(Trace_At(P, N, -24), Trace_At(P, N, 16), 0.14, Focus_Ink)
+	Stroke(Trace_At(P, N, -26), Trace_At(P, N, 20), 0.14, Focus_Ink)
 	// Where the planes of sensor and lens meet, at this height.
 	#declare A = Axis;
 	#declare B = Lens_Normal;
@@ -104,7 +104,7 @@ sphere { 0, 1 scale <1.1, 0.3, 0.24> rotate degrees(atan2(-Lens_Line.z, Lens_Lin
 		Label("plane of focus", <7.9, 0, -10.5>, 0.85, Focus_Ink)
 	#end
 #end
-Label("sensor", Sensor + <2.1, 0, -0.5>, 0.85, Ink)
+Label("sensor", Sensor + <0.25, 0, -3.3>, 0.85, Ink)
 Label("lens", Eye + <2.1, 0, 0.1>, 0.85, Lens_Ink)
 Label(Title, <9.6, 0, 3.2>, 1.0, Ink)
 #for (I, 0, 2)
