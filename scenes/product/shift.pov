@@ -7,7 +7,7 @@ global_settings { assumed_gamma 1 }
 camera {
 	tilt_lens {
 		focal_points Front_A, Front_B, Front_C
-		shift <0, -0.71>
+		shift <0, -0.725>
 		aperture_diameter 3.2
 		denoise
 	}
