@@ -14,6 +14,6 @@ camera {
 	right 16/9*x
 	angle View_Angle
 	look_at Aim
-	blur_samples 8, 32
+	blur_samples 16, 64   // wide blur needs more
 	variance 0.0003
 }
