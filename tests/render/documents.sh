@@ -11,8 +11,11 @@ while read -r program scene options; do
 	case $options in
 		*out/demo*) continue ;; # needs the demo's calibration: render.boxes and render.board run those scenes
 	esac
-	# Paths are from the top of the repository; size and output are ours. $options: words.
-	if (cd "$root" && "$ours" "$scene" $options -D +W48 +H27 "+O$work/picture.png" +FN8) > log.txt 2>&1 < /dev/null; then
+	# Paths are from the top of the repository; size and the output's folder are ours, and later commands find there
+	# what earlier ones made. $options: words.
+	name=$(printf '%s\n' "$options" | sed -n 's/.*+O\([^ ]*\).*/\1/p')
+	name=$(basename "${name:-picture}" | sed 's/\.[a-z]*$//')
+	if (cd "$root" && "$ours" "$scene" $options -D +W48 +H27 "+L$work" "+O$work/$name.png" +FN8) > log.txt 2>&1 < /dev/null; then
 		echo "$program $scene $options"
 		count=$((count + 1))
 	else
