@@ -149,10 +149,10 @@ rigid_files)
 	grep -q '(model rigid)' result/camera-plus5.inc || fail "camera-plus5.inc does not name the model"
 	[ -s result/overlay-plus5-3.png ] || fail "no overlay" ;;
 effects_usage)
-	for list in vignetting distortion, auto,none ""; do calibrate 2 "--effects.*vignetting_natural" "$target/untilted-1.jpg" --effects="$list"; done
+	for list in vignetting distortion, auto,none; do calibrate 2 "--effects.*vignetting_natural" "$target/untilted-1.jpg" --effects="$list"; done
 	for fix in blades=2 blades=7.5 blade_curvature=2 blade_rotation=5; do calibrate 2 "blade" "$target/untilted-1.jpg" --fix $fix; done
 	for field in plus5="$target/untilted-1.jpg" "$target/untilted-1.jpg"; do calibrate 2 "--flat-field.*untilted" "$target/untilted-1.jpg" --flat-field "$field"; done
-	calibrate 2 "--flat-field untilted.*nowhere" "$target/untilted-1.jpg" --flat-field untilted=nowhere.png
+	calibrate 3 "--flat-field untilted.*nowhere" "$target/untilted-1.jpg" --flat-field untilted=nowhere.png
 	calibrate 2 "--model curved.*field_curvature" "$target/untilted-1.jpg" --model curved --effects none ;;
 effects_written)
 	set -- calibrate --model plane --board 12x9 --square 25 --pitch 0.02 --untilted "$target/untilted-[1-3].jpg" --edges-per-photo 40 --out result
