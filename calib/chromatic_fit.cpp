@@ -136,12 +136,17 @@ double Rms(double squares, size_t count) { return count ? std::sqrt(squares / do
 
 std::string WhyNothing(const Calibration& c)
 {
-	bool coloured = false;
+	bool coloured = false, subsampled = false;
 	for (const State& state : c.task.states)
 		for (const Photo& photo : state.photos)
+		{
 			coloured = coloured || photo.coloured;
+			subsampled = subsampled || (photo.coloured && photo.facts.subsampled_colour);
+		}
 	if (!coloured)
 		return "the photographs are grey";
+	if (subsampled)
+		return "the JPEG files store colour at half the size (4:2:0 or 4:2:2), which hides most of a shift between colours: export PNG, TIFF or 4:4:4 JPEG from the raw files";
 	return c.task.board.IsCheckerboard() ? "too few edges could be measured in all three colours" : "it is told by straight edges, which a grid of circles does not have";
 }
 

@@ -267,6 +267,11 @@ const FalloffAnswer& FalloffOf(const Calibration& c)
 	return c.vignetting.answers[natural || optical ? FalloffKind(natural, optical) : FalloffKind(true, true)];
 }
 
+const FalloffAnswer& RimOf(const Calibration& c)
+{
+	return Uses(c, NAMES[3]) ? FalloffOf(c) : c.vignetting.answers[FalloffKind(true, true)];
+}
+
 std::string EffectsText(const Calibration& c)
 {
 	std::string out = "\neffects:\n";

@@ -43,6 +43,9 @@ bool Uses(const Calibration& calibration, const std::string& name);
 /// The answer whose numbers are written, or, when none is, that of both kinds of vignetting.
 const FalloffAnswer& FalloffOf(const Calibration& calibration);
 
+/// The answer that tells the rim: FalloffOf, or where no rim is written that of both kinds of vignetting.
+const FalloffAnswer& RimOf(const Calibration& calibration);
+
 /// One row per effect, for people: what, value, significance, held out without and with, written or not and why.
 std::string EffectsText(const Calibration& calibration);
 

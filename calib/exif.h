@@ -22,6 +22,7 @@ struct PhotographFacts
 	std::optional<double> pitch_mm;          ///< from FocalPlaneXResolution; only when it holds for these pixels
 	int orientation = 1;                     ///< 1 to 8; 1: as the sensor had it
 	std::string make, model, lens;
+	bool subsampled_colour = false;          ///< a JPEG that stores colour at less than full size; not from EXIF, ReadLinear fills it in
 
 	bool Empty() const;
 };

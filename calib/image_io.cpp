@@ -79,7 +79,10 @@ cv::Mat ReadAndLinearise(const std::string& file, const Transfer& transfer, Phot
 	const PictureFile picture = ReadPictureFile(file);
 	cv::Mat image = Decode(picture);
 	if (facts)
+	{
 		*facts = ReadFacts(picture, image.cols);
+		facts->subsampled_colour = picture.format == PictureFormat::JPEG && HasSubsampledColour(picture);
+	}
 	switch (image.depth())
 	{
 	case CV_8U: return Linearise<uchar>(image, transfer);

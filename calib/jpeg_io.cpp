@@ -101,22 +101,28 @@ void Run(Reader& reader, void (*step)(Reader&))
 		throw FileError(fmt::format("{}: truncated or damaged JPEG, or of a kind that is not read: {}; copy or export it again", reader.picture.name, reader.message));
 }
 
+/// Readies a reader, and frees what libjpeg took.
+struct Guard
+{
+	Reader& r;
+
+	explicit Guard(Reader& reader) : r(reader)
+	{
+		r.jpeg.err = jpeg_std_error(&r.errors);
+		r.errors.error_exit = OnError;
+		r.errors.emit_message = OnMessage;
+		// jpeg_create_decompress clears all but this and the error manager.
+		r.jpeg.client_data = &r;
+	}
+	~Guard() { jpeg_destroy_decompress(&r.jpeg); }
+};
+
 }
 
 cv::Mat DecodeJpeg(const PictureFile& picture)
 {
 	Reader reader{ picture };
-	reader.jpeg.err = jpeg_std_error(&reader.errors);
-	reader.errors.error_exit = OnError;
-	reader.errors.emit_message = OnMessage;
-	// jpeg_create_decompress clears all but this and the error manager.
-	reader.jpeg.client_data = &reader;
-	struct Guard
-	{
-		Reader& r;
-		~Guard() { jpeg_destroy_decompress(&r.jpeg); }
-	} guard{ reader };
-
+	const Guard guard(reader);
 	Run(reader, ReadHeader);
 	CheckPictureSize(picture.name, reader.jpeg.image_width, reader.jpeg.image_height);
 	const int channels = reader.jpeg.num_components;
@@ -130,6 +136,18 @@ cv::Mat DecodeJpeg(const PictureFile& picture)
 	if (channels == 3)
 		cv::cvtColor(image, image, cv::COLOR_RGB2BGR);
 	return image;
+}
+
+bool HasSubsampledColour(const PictureFile& picture)
+{
+	Reader reader{ picture };
+	const Guard guard(reader);
+	Run(reader, ReadHeader);
+	const jpeg_component_info* const components = reader.jpeg.comp_info;
+	for (int k = 1; k < reader.jpeg.num_components; ++k)
+		if (components[k].h_samp_factor < components[0].h_samp_factor || components[k].v_samp_factor < components[0].v_samp_factor)
+			return true;
+	return false;
 }
 
 }

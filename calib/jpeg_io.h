@@ -14,6 +14,9 @@ namespace tiltcal
 /// is not applied. Throws FileError: CMYK, and anything that libjpeg would fill with grey.
 cv::Mat DecodeJpeg(const PictureFile& picture);
 
+/// Whether colour is stored at less than the full size (4:2:0, 4:2:2). Throws FileError: damaged.
+bool HasSubsampledColour(const PictureFile& picture);
+
 }
 
 #endif

@@ -72,7 +72,7 @@ void MeasureColours(const cv::Mat& linear, const Board& board, Photo& photo)
 	std::vector<cv::Mat> channels;
 	cv::split(linear, channels);
 	photo.coloured = ChannelsDiffer(channels);
-	if (!photo.coloured || !board.IsCheckerboard())
+	if (!photo.coloured || !board.IsCheckerboard() || photo.facts.subsampled_colour)
 		return;
 	const CornerGrid grid(photo, board);
 	const std::vector<const Edge*> edges = Spread(photo, board);

@@ -64,7 +64,7 @@ std::string ApertureText(const Calibration& c, const Solution& solution, const s
 std::string EffectNumbers(const Calibration& c, const std::string& prefix)
 {
 	std::string out;
-	const FalloffAnswer& falloff = FalloffOf(c);
+	const FalloffAnswer& falloff = RimOf(c);
 	if (falloff.rim_seen)
 	{
 		const std::string unused = Unused(c, "vignetting_optical");

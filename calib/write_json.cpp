@@ -147,11 +147,11 @@ Json VignettingJson(const Calibration& c)
 	if (!v.failure.empty())
 		return { { "failure", v.failure } };
 	json["natural"] = Uses(c, "vignetting_natural");
-	if (a.rim_seen)
+	if (const FalloffAnswer& rim = RimOf(c); rim.rim_seen)
 	{
-		Put(json["optical"], "radius", "_mm", a.radius_mm);
-		Put(json["optical"], "distance", "_mm", a.distance_mm);
-		Put(json["optical"], "darkening", "", a.darkening);
+		Put(json["optical"], "radius", "_mm", rim.radius_mm);
+		Put(json["optical"], "distance", "_mm", rim.distance_mm);
+		Put(json["optical"], "darkening", "", rim.darkening);
 		json["optical"]["used"] = Uses(c, "vignetting_optical");
 	}
 	json["told_by"] = v.flat_field ? "flat fields" : "white squares";

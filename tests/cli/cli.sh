@@ -148,6 +148,27 @@ rigid_files)
 	grep -q '"model": "rigid"' result/calibration.json || fail "calibration.json does not name the model"
 	grep -q '(model rigid)' result/camera-plus5.inc || fail "camera-plus5.inc does not name the model"
 	[ -s result/overlay-plus5-3.png ] || fail "no overlay" ;;
+effects_usage)
+	for list in vignetting distortion, auto,none; do calibrate 2 "--effects.*vignetting_natural" "$target/untilted-1.jpg" --effects="$list"; done
+	for fix in blades=2 blades=7.5 blade_curvature=2 blade_rotation=5; do calibrate 2 "blade" "$target/untilted-1.jpg" --fix $fix; done
+	for field in plus5="$target/untilted-1.jpg" "$target/untilted-1.jpg"; do calibrate 2 "--flat-field.*untilted" "$target/untilted-1.jpg" --flat-field "$field"; done
+	calibrate 3 "--flat-field untilted.*nowhere" "$target/untilted-1.jpg" --flat-field untilted=nowhere.png
+	calibrate 2 "--model curved.*field_curvature" "$target/untilted-1.jpg" --model curved --effects none ;;
+effects_written)
+	set -- calibrate --model plane --board 12x9 --square 25 --pitch 0.02 --untilted "$target/untilted-[1-3].jpg" --edges-per-photo 40 --out result
+	expect 0 "$@" --effects vignetting_natural,blades --fix blades=8 --fix blade_rotation=22.5 --fix blade_curvature=0.5
+	grep -q '^		vignetting natural$' result/camera-untilted.inc || fail "no natural vignetting"
+	grep -q '^		blades 8 rotation 22.5 curvature 0.5$' result/camera-untilted.inc || fail "no blades"
+	! grep -qE '^		(distortion|vignetting optical|field_curvature|chromatic)' result/camera-untilted.inc || fail "more than was asked for"
+	grep -q 'Rim_Radius.*not used: not in --effects' result/camera-untilted.inc || fail "the rim is not said to be unused"
+	prints '^  vignetting_natural  written'
+	refuses 1 "--effects: chromatic_lateral could not be estimated: the photographs are grey" "$@" --effects chromatic_lateral ;;
+flat_field) # a photograph of the board is no flat field, but tiltcal cannot know
+	set -- calibrate --model plane --board 12x9 --square 25 --pitch 0.02 --untilted "$target/untilted-[1-3].jpg" --edges-per-photo 40 --out result
+	expect 0 "$@" --flat-field untilted="$photos/scene/untilted.jpg"
+	says "flat field of state untilted, 1040 cells"; grep -q '"told_by": "flat fields"' result/calibration.json || fail "not told by the flat field"
+	printf '\211\120\116\107\015\012\032\012\000\000\000\015\111\110\104\122\000\000\000\001\000\000\000\001\010\000\000\000\000\072\176\233\125\000\000\000\012\111\104\101\124\170\234\143\250\000\000\000\172\000\171\263\141\265\173\000\000\000\000\111\105\116\104\256\102\140\202' >one.png
+	refuses 1 "--flat-field.*is 1x1 pixels" "$@" --flat-field untilted=one.png ;;
 bad_edges_per_photo)
 	for n in -1 3 11 2.5 many; do calibrate 2 "--edges-per-photo.*$n" "$target/untilted-1.jpg" --edges-per-photo=$n; done ;;
 few_edges) # twelve edges of one photograph do not make a calibration
