@@ -5,6 +5,7 @@
 #include "calibrate.h"
 #include "error.h"
 #include "fixed_blades.h"
+#include "held_out_corners.h"
 #include "robust.h"
 
 #include <fmt/format.h>
@@ -42,7 +43,7 @@ Effect DistortionOf(const Calibration& c, const EffectChoice& choice)
 {
 	const Geometry& g = MainGeometry(c);
 	Effect e;
-	e.unit = "px, reprojection of the photographs fitted";
+	e.unit = "px, places of corners left out";
 	if (c.solution.model == "paper")
 		e.failure = "the paper's model has no effects";
 	else if (choice.Excludes("distortion"))
@@ -58,8 +59,8 @@ Effect DistortionOf(const Calibration& c, const EffectChoice& choice)
 			e.values.emplace_back(names[k], Estimate{ g.distortion[k], g.distortion_sigma[k] });
 			e.sigmas = std::max(e.sigmas, Sigmas(e.values.back().second));
 		}
-	e.held_out_without = c.pinhole.rms;
-	e.held_out_with = g.rms;
+	e.held_out_without = CornersLeftOut(c.task, { 0, g.lens_normal, g.shared_poses });
+	e.held_out_with = CornersLeftOut(c.task, { g.distortion_terms, g.lens_normal, g.shared_poses });
 	return e;
 }
 

@@ -26,7 +26,10 @@ std::string Declare(const std::string& prefix, const std::string& name, const Es
 	return fmt::format("#declare {}_{} = {:.10g};   // +- {:.2g} {}\n", prefix, name, value, e.sigma, comment);
 }
 
-std::string Vector(const Vec3<double>& v) { return fmt::format("<{:.9g}, {:.9g}, {:.9g}>", v.x, v.y, v.z); }
+std::string Vector(const Vec3<double>& v, int digits = 9)
+{
+	return fmt::format("<{0:.{3}g}, {1:.{3}g}, {2:.{3}g}>", v.x, v.y, v.z, digits);
+}
 
 /// The camera's place in the board frame: location -R^T t, look_at along R^T e_z, sky R^T e_y.
 std::string PhotoPose(const std::string& prefix, size_t number, const Photo& photo, const Pose& pose)
@@ -131,6 +134,9 @@ std::string Numbers(const Calibration& c, const Solution& solution, const Geomet
 	for (size_t k = 0; k < 5 && g.distortion_terms > 0; ++k)
 		out += Declare(prefix, names[k], { g.distortion[k], g.distortion_sigma[k] }, k ? "" : "of the distortion" + Unused(c, "distortion"));
 	out += EffectNumbers(c, prefix);
+	const bool moved = s < g.lens_centre.size();
+	out += fmt::format("#declare {}_Lens_Centre = {};   // +- {} mm, seen from the untilted one: right, up, forward\n", prefix,
+		Vector(moved ? g.lens_centre[s] : Vec3<double>{ 0, 0, 0 }), Vector(moved ? g.lens_centre_sigma[s] : Vec3<double>{ 0, 0, 0 }, 2));
 	out += fmt::format("#declare {}_Photos = {};\n", prefix, c.task.states[s].photos.size());
 	const size_t photos = c.task.states[s].photos.size();
 	for (size_t p = 0; p < photos; ++p)
@@ -157,6 +163,14 @@ std::string Macro(const Calibration& c, const std::string& p)
 		"// point, which the shift puts beside the picture's centre. Sky as for any camera.\n"
 		"#macro {0}(Location, Look_At, Sky)\n"
 		"{1}"
+		"#end\n\n"
+		"// The same where the camera's body stands still while the lens tilts about its pivot:\n"
+		"// Location and Look_At are those of the untilted state.\n"
+		"#macro {0}_Body(Location, Look_At, Sky)\n"
+		"\t#local Z = vnormalize(Look_At - Location);\n"
+		"\t#local X = vnormalize(vcross(Sky, Z));\n"
+		"\t#local Move = {0}_Lens_Centre.x * X + {0}_Lens_Centre.y * vcross(Z, X) + {0}_Lens_Centre.z * Z;\n"
+		"\t{0}(Location + Move, Look_At + Move, Sky)\n"
 		"#end\n\n"
 		"// The camera of this state's photograph N (1, 2, ...), in the board's frame.\n"
 		"#macro {0}_Pose(N)\n"

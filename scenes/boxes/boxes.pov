@@ -12,9 +12,9 @@ global_settings { assumed_gamma 1 }
 
 #declare Boxes_Look_At = Boxes_Camera_Location + 600 * Boxes_Camera_Direction;
 #switch (State)
-	#case (0) #include "camera-untilted.inc" TiltCal_untilted(Boxes_Camera_Location, Boxes_Look_At, Boxes_Camera_Sky) #break
-	#case (1) #include "camera-plus5.inc" TiltCal_plus5(Boxes_Camera_Location, Boxes_Look_At, Boxes_Camera_Sky) #break
-	#case (2) #include "camera-minus5.inc" TiltCal_minus5(Boxes_Camera_Location, Boxes_Look_At, Boxes_Camera_Sky) #break
+	#case (0) #include "camera-untilted.inc" TiltCal_untilted_Body(Boxes_Camera_Location, Boxes_Look_At, Boxes_Camera_Sky) #break
+	#case (1) #include "camera-plus5.inc" TiltCal_plus5_Body(Boxes_Camera_Location, Boxes_Look_At, Boxes_Camera_Sky) #break
+	#case (2) #include "camera-minus5.inc" TiltCal_minus5_Body(Boxes_Camera_Location, Boxes_Look_At, Boxes_Camera_Sky) #break
 	#else #error "State must be 0 (untilted), 1 (plus5) or 2 (minus5).\n"
 #end
 

@@ -5,8 +5,10 @@ cmake_minimum_required(VERSION 3.25)
 
 # Sixteen samples: their noise adds about a tenth to the error; the demo takes more.
 set(SAMPLES 16)
-# The issue's limit for the mean error with --match shading: a little more than the best that the paper has (6.474).
-set(LIMIT 6.5)
+# The project's limit for the mean error with one gain, now that the lens's vignetting is rendered; the best that the paper
+# has is 6.474. Measured with 128 samples: 2.2 to 3.7. A shading that is fitted may not find much more.
+set(LIMIT_gain 5)
+set(LIMIT_shading 5)
 set(states_in_boxes_pov untilted plus5 minus5)
 
 file(REMOVE_RECURSE "${WORK}")
@@ -19,14 +21,17 @@ execute_process(
 if(failed)
 	message(FATAL_ERROR "rendering ${STATE} failed:\n${log}")
 endif()
-execute_process(
-	COMMAND "${TILTCAL}" profile "${SCENE}/photos/scene/${STATE}.jpg" "${WORK}/render.exr" --line 0,660,1799,660 --line 900,0,900,1199
-		--match shading --json "${WORK}/profile.json" --out "${WORK}"
-	COMMAND_ERROR_IS_FATAL ANY)
-file(READ "${WORK}/profile.json" json)
-foreach(line 0 1)
-	string(JSON error GET "${json}" lines ${line} mean_abs_error)
-	if(NOT error LESS_EQUAL LIMIT)
-		message(SEND_ERROR "${STATE}, line ${line}: mean error ${error}, limit ${LIMIT}")
-	endif()
+foreach(match gain shading)
+	execute_process(
+		COMMAND "${TILTCAL}" profile "${SCENE}/photos/scene/${STATE}.jpg" "${WORK}/render.exr" --line 0,660,1799,660 --line 900,0,900,1199
+			--match ${match} --json "${WORK}/profile-${match}.json" --out "${WORK}/${match}"
+		COMMAND_ERROR_IS_FATAL ANY)
+	file(READ "${WORK}/profile-${match}.json" json)
+	foreach(line 0 1)
+		string(JSON error GET "${json}" lines ${line} mean_abs_error)
+		message("${STATE}, line ${line}, ${match}: mean error ${error} (limit ${LIMIT_${match}})")
+		if(NOT error LESS_EQUAL LIMIT_${match})
+			message(SEND_ERROR "too large")
+		endif()
+	endforeach()
 endforeach()
