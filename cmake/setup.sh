@@ -12,9 +12,10 @@ packages="
 	libceres-dev libeigen3-dev libopencv-dev libcli11-dev nlohmann-json3-dev
 	libspdlog-dev libfmt-dev libgtest-dev libgmock-dev libbenchmark-dev
 	pkg-config libcairo2-dev fonts-dejavu-core poppler-utils
-	gnuplot-nox povray povray-includes"
+	gnuplot-nox povray povray-includes
+	dpkg-dev file man-db"
 # Wanted, but nothing fails without it.
-optional="ccache"
+optional="ccache debootstrap"
 
 if ! command -v apt-get > /dev/null 2>&1; then
 	cat >&2 <<'END'
