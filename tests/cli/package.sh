@@ -5,6 +5,8 @@
 # povray, and its programs run by their links from wherever it is unpacked. (package_in_clean_root.sh installs it.)
 #
 #   package.sh BUILD CPACK WORK
+#
+# Exits 77 (skipped) where there is no dpkg.
 set -u
 build=$1 cpack=$2 work=$3
 rm -rf "$work" && mkdir -p "$work/run" && cd "$work" || exit 99
@@ -16,6 +18,7 @@ run() {
 		fail "$*: exit code $?: $(tr '\r' '\n' < run.log | tail -8)"
 }
 
+command -v dpkg-query > /dev/null || { echo "skipped: not Debian or one of its relatives"; exit 77; }
 for tool in dpkg-deb dpkg-shlibdeps file gzip; do
 	command -v $tool > /dev/null || fail "no $tool; cmake/setup.sh installs what packaging needs"
 done
