@@ -29,14 +29,15 @@ file(REMOVE_RECURSE "${private}/share/man")
 # Upstream's sample configurations are no use to anybody: povray.ini there names folders of the distribution's package.
 file(REMOVE "${root}/usr/share/povray-tilt/ini/povray.ini")
 
-# Documents, and the scenes with their pictures as examples.
-foreach(document README.md povray-patch/REFERENCE.md povray-patch/COMING-FROM.md)
-	if(EXISTS "${source}/${document}")
-		file(COPY "${source}/${document}" DESTINATION "${doc}")
-	endif()
-endforeach()
+# Documents, laid out so that their links lead somewhere, and the scenes with their pictures as examples.
+file(COPY "${source}/README.md" DESTINATION "${doc}")
+file(COPY "${source}/povray-patch/REFERENCE.md" "${source}/povray-patch/COMING-FROM.md" "${source}/povray-patch/ray-error.png"
+	DESTINATION "${doc}/povray-patch")
+file(CREATE_LINK povray-patch/REFERENCE.md "${doc}/REFERENCE.md" SYMBOLIC)
+file(CREATE_LINK povray-patch/COMING-FROM.md "${doc}/COMING-FROM.md" SYMBOLIC)
 file(COPY "${source}/scenes/" DESTINATION "${doc}/examples"
 	PATTERN CMakeLists.txt EXCLUDE PATTERN tools EXCLUDE PATTERN "*.cmake" EXCLUDE)
+file(CREATE_LINK examples "${doc}/scenes" SYMBOLIC)
 
 # The licence: Debian keeps no copy of the AGPL in /usr/share/common-licenses.
 file(READ "${source}/LICENSE" license)
