@@ -1,0 +1,30 @@
+# Man pages, made from the programs' own --help at build time and from hand-written frames.
+
+set(man_folder "${CMAKE_BINARY_DIR}/share/man/man1")
+file(MAKE_DIRECTORY "${man_folder}")
+set(TILTCAL_SUBCOMMANDS target detect calibrate pose profile export import)
+
+# add_man_page(PROGRAM FRAME [SUBCOMMAND...]): FRAME becomes PROGRAM.1.
+function(add_man_page program frame)
+	set(page "${man_folder}/${program}.1")
+	set(script "${PROJECT_SOURCE_DIR}/cmake/make-man-page.sh")
+	add_custom_command(OUTPUT "${page}"
+		COMMAND sh "${script}" "$<TARGET_FILE:${program}>" "${frame}" "${page}" ${ARGN}
+		DEPENDS ${program} "${frame}" "${script}" "${PROJECT_SOURCE_DIR}/cmake/help-to-man.awk"
+		COMMENT "Man page of ${program}" VERBATIM)
+	set_property(GLOBAL APPEND PROPERTY tilt_lens_man_pages "${page}")
+endfunction()
+
+add_man_page(tiltcal "${PROJECT_SOURCE_DIR}/calib/man/tiltcal.1.in" ${TILTCAL_SUBCOMMANDS})
+add_man_page(tiltcost "${PROJECT_SOURCE_DIR}/povray-patch/tiltcost/man/tiltcost.1.in")
+get_property(man_pages GLOBAL PROPERTY tilt_lens_man_pages)
+add_custom_target(man-pages ALL DEPENDS ${man_pages})
+
+# This one is POV-Ray's own, and hand-written as a whole.
+set(VERSION "${PROJECT_VERSION}")
+configure_file("${PROJECT_SOURCE_DIR}/povray-patch/man/povray-tilt.1.in" "${man_folder}/povray-tilt.1" @ONLY)
+unset(VERSION)
+if(TARGET povray)
+	list(APPEND man_pages "${man_folder}/povray-tilt.1")
+endif()
+install(FILES ${man_pages} DESTINATION "${CMAKE_INSTALL_MANDIR}/man1")
