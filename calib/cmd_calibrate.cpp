@@ -129,7 +129,7 @@ Refinement ParseRefinement(const std::string& text)
 }
 
 /// A wrong --fix makes the photographs contradict themselves, which reads like a lack of photographs.
-Calibration CalibrateWithPriors(const Task& task, const std::string& model, Poses poses, Refinement refinement, const EffectChoice& effects)
+Calibration CalibrateWithPriors(const Task& task, bool priors_from_exif_alone, const std::string& model, Poses poses, Refinement refinement, const EffectChoice& effects)
 {
 	try
 	{
@@ -139,7 +139,8 @@ Calibration CalibrateWithPriors(const Task& task, const std::string& model, Pose
 	{
 		if (e.Code() != EXIT_REFUSED || task.priors.empty())
 			throw;
-		throw Refused(fmt::format("{}; or what --fix or --prior says is wrong: try without", e.what()));
+		throw Refused(fmt::format("{}; or what {} is wrong: {}", e.what(), priors_from_exif_alone ? "the photographs' EXIF says of the lens" : "--fix or --prior says",
+			priors_from_exif_alone ? "give --prior focal_length=.. and --prior f_number=.. yourself" : "try without"));
 	}
 }
 
@@ -179,7 +180,7 @@ void Run(const Options& o)
 		spdlog::info("EXIF says {} {:g}: taken as known to 10 %", prior.Name(), prior.value);
 		task.priors.push_back(prior);
 	}
-	const Calibration c = CalibrateWithPriors(task, o.model, poses, refinement, effects);
+	const Calibration c = CalibrateWithPriors(task, priors.empty(), o.model, poses, refinement, effects);
 	for (const std::string& words : CompareWithExif(c))
 		spdlog::warn("{}", words);
 	WriteEverything(c, transfer, o.out, o.refine);

@@ -16,12 +16,10 @@ namespace tiltcal
 namespace
 {
 
-/// The lens tilt as a vector, degrees.
-Eigen::Vector2d TiltVector(const BlurFit& fit, const Unknowns& x, size_t state)
+Eigen::Vector2d TiltOfState(const BlurFit& fit, const Unknowns& x, size_t state)
 {
 	const TiltAngles a = AnglesFromPlane(fit.Plane(x, state), fit.w_mm);
-	const double direction = a.tilt_direction * 3.14159265358979323846 / 180;
-	return a.lens_tilt * Eigen::Vector2d(std::sin(direction), std::cos(direction));
+	return TiltVector(a.lens_tilt, a.tilt_direction);
 }
 
 }
@@ -51,7 +49,7 @@ HeldOut HoldOut(const BlurFit& fit, const Unknowns& x, double most)
 				squares += std::pow(std::min(std::abs(fit.Residual(o, y)), most), 2);
 			sum += squares;
 			count += own.size();
-			result.photos.push_back({ state, photo, (TiltVector(fit, y, state) - TiltVector(fit, x, state)).norm(), std::sqrt(squares / double(own.size())) });
+			result.photos.push_back({ state, photo, (TiltOfState(fit, y, state) - TiltOfState(fit, x, state)).norm(), std::sqrt(squares / double(own.size())) });
 		}
 	result.rms = count ? std::sqrt(sum / double(count)) : 0;
 	return result;

@@ -30,6 +30,12 @@ TiltAngles Unfold(TiltAngles a, const TiltAngles& near)
 
 }
 
+Eigen::Vector2d TiltVector(double lens_tilt_deg, double tilt_direction_deg)
+{
+	const double direction = tilt_direction_deg * 3.14159265358979323846 / 180;
+	return lens_tilt_deg * Eigen::Vector2d(std::sin(direction), std::cos(direction));
+}
+
 TiltAngles AnglesFromPlane(const Vec3<double>& q, double w_mm)
 {
 	const tilt_lens::Lens<double> lens = tilt_lens::LensFromPlane(q, 1 / w_mm);

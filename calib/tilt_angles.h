@@ -19,6 +19,9 @@ struct TiltAngles
 	double focus_distance = 0, focal_length = 0;                      ///< mm; may be infinite
 };
 
+/// A tilt as a vector, degrees: right and up of where the plane of focus recedes to. Differences of tilts are its own.
+Eigen::Vector2d TiltVector(double lens_tilt_deg, double tilt_direction_deg);
+
 /// By the vector lens equation n/f = q + e_z/w (optics.h). q in 1/mm, w in mm.
 TiltAngles AnglesFromPlane(const Vec3<double>& q, double w_mm);
 

@@ -5,6 +5,7 @@
 #include "blur_fit.h"
 #include "calibrate.h"
 #include "robust.h"
+#include "tilt_angles.h"
 
 #include <fmt/format.h>
 #include <tilt_lens/field_curvature.h>
@@ -18,12 +19,10 @@ namespace tiltcal
 namespace
 {
 
-const double RADIANS = 3.14159265358979323846 / 180;
-
 class Judgement
 {
 public:
-	explicit Judgement(const Calibration& calibration) : c(calibration) {}
+	explicit Judgement(const Calibration& calibration) : c(calibration), observations(Observe(calibration.task, calibration.geometry)) {}
 
 	Verdict Everything()
 	{
@@ -76,7 +75,7 @@ private:
 	void BothSides(size_t s)
 	{
 		int front = 0, all = 0;
-		for (const Observation& o : Observe(c.task, c.geometry))
+		for (const Observation& o : observations)
 		{
 			if (o.state != s)
 				continue;
@@ -111,9 +110,8 @@ private:
 		if (s == 0 || c.geometry_alone.states.size() <= s || c.blur_alone.size() <= s)
 			return;
 		const StateLens &blur = c.blur_alone[s], &geometry = c.geometry_alone.states[s];
-		const auto x = [](const StateLens& l) { return l.lens_tilt.value * std::sin(l.tilt_direction.value * RADIANS); };
-		const auto y = [](const StateLens& l) { return l.lens_tilt.value * std::cos(l.tilt_direction.value * RADIANS); };
-		const double apart = std::hypot(x(blur) - x(geometry), y(blur) - y(geometry));
+		const auto tilt = [](const StateLens& l) { return TiltVector(l.lens_tilt.value, l.tilt_direction.value); };
+		const double apart = (tilt(blur) - tilt(geometry)).norm();
 		const double sigma = std::hypot(blur.lens_tilt.sigma, geometry.lens_tilt.sigma);
 		if (apart > 3 * sigma && apart > 0.05)
 			Say(apart > 0.5 && apart > 5 * sigma ? Grade::POOR : Grade::FAIR, fmt::format("state {}: blur and geometry, each alone, disagree by {:.2f} degrees ({:.0f} sigma); blur decides. "
@@ -158,6 +156,7 @@ private:
 	}
 
 	const Calibration& c;
+	const std::vector<Observation> observations;
 	Verdict verdict;
 };
 
