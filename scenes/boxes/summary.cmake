@@ -91,7 +91,7 @@ function(write_summary OUT STATES)
 		endforeach()
 		string(APPEND text "| ${state} | ${shading} | ${gain} | ${paper2_${state}} |\n")
 	endforeach()
-	string(APPEND text "\nRed: row 660. Green: column 900. `shading` divides out the lens's vignetting, which the render does not have; `gain` does not.\n\n"
+	string(APPEND text "\nRed: row 660. Green: column 900. `shading` divides out what is left of a smooth shading; `gain` brings both to one exposure and no more.\n\n"
 		"| state | photograph and render | profiles |\n|---|---|---|\n")
 	foreach(state IN LISTS STATES)
 		string(APPEND text "| ${state} | [side by side](side-by-side-${state}.png) | [red and green line](profile-${state}.png) |\n")
