@@ -61,6 +61,9 @@ FalloffSample Seen(const Calibration& c, size_t s, const BrightPatch& patch)
 
 void Add(const Calibration& c, size_t s, const BrightPatch& patch, size_t light, const double (&place)[2], size_t group, Data& data)
 {
+	// Beyond the lens's image circle there is no light, and no logarithm.
+	if (!(patch.value > 0))
+		return;
 	FalloffSample sample = Seen(c, s, patch);
 	sample.gain = data.exposures.size() - 1;
 	sample.light = light;

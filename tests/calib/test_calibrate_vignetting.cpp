@@ -153,6 +153,18 @@ TEST(CalibrateVignetting, FlatFieldsTellItBetterThanTheBoard)
 	}
 }
 
+// A lens whose image circle ends within the picture: black cells say nothing, and must not end the fit.
+TEST(CalibrateVignetting, BlackCellsOfAFlatFieldAreLeftOut)
+{
+	Calibration c = synthetic::Shaded(TiltedBothWays(), Shade{ false, 0, 0, 0.2 }, 0.005, 5);
+	c.task.flat_fields = { synthetic::ShadedField(TiltedBothWays()[0], 0, RIM, 0.005, 1) };
+	for (size_t k = 0; k < 20; ++k)
+		c.task.flat_fields[0].patches[k].value = k < 10 ? 0 : -1e-6;
+	const Calibration e = Estimated(c);
+	EXPECT_TRUE(Uses(e, "vignetting_optical")) << EffectsText(e);
+	EXPECT_LT(Off(FalloffOf(e).radius_mm, 15), 2.6);
+}
+
 TEST(CalibrateVignetting, EffectsAskedForAreTakenOrRefused)
 {
 	Calibration c = synthetic::Shaded(TiltedBothWays(), RIM, 0.005, 1);
