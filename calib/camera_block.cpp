@@ -10,18 +10,15 @@ namespace tiltcal
 std::string EffectLines(const EffectWords& w)
 {
 	std::string out;
-	const auto add = [&](const char* word, const std::string& values)
+	const auto add = [&](const char* word, const std::string& values, const std::string& only_if = "")
 	{
 		if (!values.empty())
-			out += fmt::format("\t\t{} {}\n", word, values);
+			out += fmt::format(only_if.empty() ? "{0}\t\t{1} {2}\n" : "#if ({0})\n\t\t{1} {2}\n#end\n", only_if, word, values);
 	};
 	add("field_curvature", w.field_curvature);
-	if (!w.distortion_only_if.empty() && !w.distortion.empty())
-		out += fmt::format("#if ({})\n\t\tdistortion {}\n#end\n", w.distortion_only_if, w.distortion);
-	else
-		add("distortion", w.distortion);
+	add("distortion", w.distortion, w.distortion_only_if);
 	add("vignetting", w.natural_vignetting ? "natural" : "");
-	add("vignetting optical", w.optical_vignetting);
+	add("vignetting optical", w.optical_vignetting, w.optical_only_if);
 	add("chromatic", (w.lateral.empty() ? "" : "lateral " + w.lateral) + (w.lateral.empty() || w.axial.empty() ? "" : " ") + (w.axial.empty() ? "" : "axial " + w.axial));
 	add("blades", w.blades);
 	return out;

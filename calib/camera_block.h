@@ -27,6 +27,7 @@ struct EffectWords
 	std::string distortion_only_if;   ///< a condition, for `#if`; empty: always
 	bool natural_vignetting = false;
 	std::string optical_vignetting;   ///< R, Z
+	std::string optical_only_if;   ///< as distortion_only_if
 	std::string lateral, axial;    ///< red, blue
 	std::string blades;            ///< N rotation A curvature C
 };

@@ -97,7 +97,10 @@ EffectWords WordsOf(const Calibration& c, const std::string& p)
 	}
 	words.natural_vignetting = Uses(c, "vignetting_natural");
 	if (Uses(c, "vignetting_optical"))
+	{
 		words.optical_vignetting = fmt::format("{0}_Rim_Radius, {0}_Rim_Distance", p);
+		words.optical_only_if = "TiltCal_Rim";
+	}
 	if (Uses(c, "chromatic_lateral"))
 		words.lateral = fmt::format("{0}_Lateral_Red, {0}_Lateral_Blue", p);
 	if (Uses(c, "chromatic_axial"))
@@ -193,6 +196,11 @@ std::string CameraInc(const Calibration& c, size_t s)
 		"// Reprojection: {:.3f} px RMS {}.\n\n{}",
 		name, TILTCAL_VERSION, c.solution.model, c.task.width, c.task.height, RenderGeometry(c).rms,
 		distorted ? fmt::format("without distortion, {:.3f} px with it", MainGeometry(c).rms) : "without distortion, which this lens does not need", BlurSamplesDefault());
+	if (Uses(c, "vignetting_optical"))
+		out += "// 1: with the second rim, which darkens corners as the photographs' are and cuts blur discs to cat's\n"
+			"// eyes. A real lens has rims on both sides: where much is cut, the middle of\n"
+			"// a blurred edge moves. 0: without it.\n"
+			"#ifndef (TiltCal_Rim)\n\t#declare TiltCal_Rim = 1;\n#end\n\n";
 	if (distorted)
 		out += "// 1: with the lens's distortion, which acts about the tilted lens axis. 0: the best\n"
 			"// camera without it, fitted as such.\n"
