@@ -13,6 +13,7 @@
 #include <ceres/rotation.h>
 #include <tilt_lens/distortion.h>
 #include <tilt_lens/optics.h>
+#include <tilt_lens/pupil_magnification.h>
 
 #include <array>
 
@@ -74,15 +75,13 @@ inline void Project(const T& w_px, const T* distortion, const T* principal_point
 	pixel[1] = principal_point[1] - w_px * v.y / v.z;
 }
 
-/// Project for a lens whose exit pupil is m times as large as its entrance pupil (m 1: Project): rays leave it at
-/// angles whose tangents are 1/m of those at which they enter, from a point (m - 1) w farther from the sensor. A lens
-/// that is not tilted shows nothing of it. The principal point is that of the exit pupil.
-/// Steger, "A comprehensive and versatile camera model for cameras with tilt lenses", IJCV 2017 (image plane distance).
+/// Project for a lens whose exit pupil is m times as large as its entrance pupil (m 1: Project; pupil_magnification.h).
+/// The principal point is that of the exit pupil.
 template<typename T>
 inline void ProjectThroughPupils(const T& w_px, const T& pupil_magnification, const T* distortion, const T* principal_point,
 	const Vec3<T>& n, const tilt_lens::LensBasis<T>& basis, const Vec3<T>& P, T* pixel)
 {
-	const Vec3<T> v = SeeThroughLens(distortion, n, basis, P).v + (pupil_magnification - T(1)) * n;
+	const Vec3<T> v = tilt_lens::DirectionBehindPupils(n, pupil_magnification, SeeThroughLens(distortion, n, basis, P).v);
 	pixel[0] = principal_point[0] + pupil_magnification * w_px * v.x / v.z;
 	pixel[1] = principal_point[1] - pupil_magnification * w_px * v.y / v.z;
 }

@@ -1,0 +1,48 @@
+# A dragon in a photograph: places the calibrated camera by points of the photograph, renders three passes, combines them.
+#
+#   cmake -DTILTCAL= -DPOVRAY= -DSCENES=<scenes> -DCALIBRATION=<out of tiltcal calibrate> -DOUT= [-DWIDTH=1800] [-DSAMPLES=128]
+#         [-DPUT_IN=1] [-DPICTURE=composed.png] -P composition.cmake
+#
+# OUT receives pose.inc, pass0.exr to pass2.exr and the picture. Any step that fails ends it.
+cmake_minimum_required(VERSION 3.25)
+foreach(name TILTCAL POVRAY SCENES CALIBRATION OUT)
+	if(NOT DEFINED ${name})
+		message(FATAL_ERROR "composition.cmake needs -D${name}=...")
+	endif()
+endforeach()
+foreach(pair WIDTH=1800 SAMPLES=128 PUT_IN=1 PICTURE=composed.png)
+	string(REGEX MATCH "([^=]*)=(.*)" ignored "${pair}")
+	if(NOT DEFINED ${CMAKE_MATCH_1})
+		set(${CMAKE_MATCH_1} "${CMAKE_MATCH_2}")
+	endif()
+endforeach()
+math(EXPR height "${WIDTH} * 2 / 3")
+set(here "${SCENES}/composition")
+file(MAKE_DIRECTORY "${OUT}")
+
+function(run_povray picture)
+	execute_process(
+		COMMAND "${POVRAY}" ${ARGN} "+L${here}" "+L${SCENES}/dragons" "+L${OUT}" "+L${SCENES}/boxes/photos/scene" -D -A
+			+W${WIDTH} +H${height} "+O${OUT}/${picture}"
+		WORKING_DIRECTORY "${OUT}" OUTPUT_VARIABLE log ERROR_VARIABLE log RESULT_VARIABLE failed)
+	if(failed)
+		message(FATAL_ERROR "${log}\nPOV-Ray failed")
+	endif()
+endfunction()
+
+message("[composition] placing the camera by points of the photograph")
+execute_process(
+	COMMAND "${TILTCAL}" pose --calibration "${CALIBRATION}/calibration.json" --state plus5 --points "${here}/points-plus5.csv"
+		--out "${OUT}/pose.inc"
+	COMMAND_ERROR_IS_FATAL ANY)
+foreach(pass 0 1 2)
+	message("[composition] pass ${pass} of 0 to 2: ${WIDTH} x ${height}, ${SAMPLES} samples a pixel")
+	run_povray(pass${pass}.exr "+I${here}/pass.pov" +FE Declare=Pass=${pass} Declare=Put_In=${PUT_IN} Declare=TiltCal_Blur_Samples=${SAMPLES})
+endforeach()
+message("[composition] combining")
+set(format "")
+if(PICTURE MATCHES "\\.exr$")
+	set(format +FE)
+endif()
+run_povray("${PICTURE}" "+I${here}/combine.pov" ${format})
+message("[composition] written to ${OUT}/${PICTURE}")
