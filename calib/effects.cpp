@@ -110,27 +110,16 @@ Effect VignettingOf(const Calibration& c, bool optical, bool beside)
 	return e;
 }
 
-Effect LateralOf(const Calibration& c)
+/// One kind of chromatic aberration, of red and of blue, and how edges left out are foretold.
+Effect ChromaticOf(const Calibration& c, const char* letter, const char* per, const char* unit, const std::array<Estimate, 2>& values, double held_out_without, double held_out_with)
 {
 	Effect e;
-	e.unit = "px, shift of edges of photographs left out";
+	e.unit = unit;
 	e.failure = c.chromatic.failure;
-	e.values = { { "C red", c.chromatic.lateral[0] }, { "C blue", c.chromatic.lateral[1] } };
-	e.sigmas = SigmasOfBoth(c.chromatic.lateral);
-	e.held_out_without = c.chromatic.lateral_held_out_without;
-	e.held_out_with = c.chromatic.lateral_held_out_with;
-	return e;
-}
-
-Effect AxialOf(const Calibration& c)
-{
-	Effect e;
-	e.unit = "px, difference in blur of edges of photographs left out";
-	e.failure = c.chromatic.failure;
-	e.values = { { "A red per mm", c.chromatic.axial_per_mm[0] }, { "A blue per mm", c.chromatic.axial_per_mm[1] } };
-	e.sigmas = SigmasOfBoth(c.chromatic.axial_per_mm);
-	e.held_out_without = c.chromatic.axial_held_out_without;
-	e.held_out_with = c.chromatic.axial_held_out_with;
+	e.values = { { fmt::format("{} red{}", letter, per), values[0] }, { fmt::format("{} blue{}", letter, per), values[1] } };
+	e.sigmas = SigmasOfBoth(values);
+	e.held_out_without = held_out_without;
+	e.held_out_with = held_out_with;
 	return e;
 }
 
@@ -250,7 +239,12 @@ void ChooseEffects(const EffectChoice& choice, Calibration& c)
 	Decide(choice, c.effects[0]);
 	DecideCurvature(choice, c, c.effects[1]);
 	DecideVignetting(choice, c);
-	for (Effect e : { Named(LateralOf(c), NAMES[4]), Named(AxialOf(c), NAMES[5]), Named(BladesOf(c), NAMES[6]) })
+	const Chromatic& chromatic = c.chromatic;
+	const Effect lateral = ChromaticOf(c, "C", "", "px, shift of edges of photographs left out", chromatic.lateral,
+		chromatic.lateral_held_out_without, chromatic.lateral_held_out_with);
+	const Effect axial = ChromaticOf(c, "A", " per mm", "px, difference in blur of edges of photographs left out", chromatic.axial_per_mm,
+		chromatic.axial_held_out_without, chromatic.axial_held_out_with);
+	for (Effect e : { Named(lateral, NAMES[4]), Named(axial, NAMES[5]), Named(BladesOf(c), NAMES[6]) })
 	{
 		Decide(choice, e);
 		c.effects.push_back(e);
