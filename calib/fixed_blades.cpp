@@ -3,6 +3,7 @@
 #include "fixed_blades.h"
 
 #include "error.h"
+#include "numbers.h"
 
 #include <fmt/format.h>
 #include <tilt_lens/blades.h>
@@ -17,19 +18,10 @@ namespace
 
 double Number(const std::string& text, const std::string& option)
 {
-	size_t used = 0;
-	double value = 0;
-	try
-	{
-		value = std::stod(text, &used);
-	}
-	catch (const std::exception&)
-	{
-		used = 0;
-	}
-	if (used == 0 || used != text.size() || !std::isfinite(value))
+	const std::optional<double> value = FiniteNumber(text);
+	if (!value)
 		throw UsageError(fmt::format("{}: '{}' is no number", option, text));
-	return value;
+	return *value;
 }
 
 }

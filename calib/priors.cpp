@@ -3,6 +3,7 @@
 #include "priors.h"
 
 #include "error.h"
+#include "numbers.h"
 
 #include <ceres/ceres.h>
 #include <fmt/format.h>
@@ -31,19 +32,10 @@ const double FIXED = 1e-6;
 
 double Positive(const std::string& text, const std::string& option)
 {
-	size_t used = 0;
-	double value = 0;
-	try
-	{
-		value = std::stod(text, &used);
-	}
-	catch (const std::exception&)
-	{
-		used = 0;
-	}
-	if (used == 0 || used != text.size() || !(value > 0) || !std::isfinite(value))
+	const std::optional<double> value = FiniteNumber(text);
+	if (!value || !(*value > 0))
 		throw UsageError(fmt::format("{}: '{}' is no positive number", option, text));
-	return value;
+	return *value;
 }
 
 Prior Parse(const std::string& text, const char* option, bool with_sigma)
