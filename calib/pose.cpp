@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cmath>
@@ -35,6 +34,13 @@ const double WORST_RMS_SHARE = 0.01;
 /// less may be what the calibrated lens leaves over.
 const double FAR_OFF_SIGMAS = 6, FAR_OFF_PX = 1;
 
+void RefuseNowhere(const std::vector<PosePoint>& points, const std::string& file)
+{
+	for (const PosePoint& p : points)
+		if (p.placed == Placed::NOWHERE)
+			throw Refused(fmt::format("{}:{}: the point has no pixel; give --photo, so that it can be looked for there", file, p.line));
+}
+
 void RefuseFew(const std::vector<PosePoint>& points, const std::string& file)
 {
 	std::set<std::tuple<double, double, double>> places;
@@ -42,14 +48,6 @@ void RefuseFew(const std::vector<PosePoint>& points, const std::string& file)
 		places.insert({ p.world.x, p.world.y, p.world.z });
 	if (places.size() < 4)
 		throw Refused(fmt::format("{}: {} different points; a pose needs at least 4, and 6 for a sigma", file, places.size()));
-}
-
-void RefuseOutside(const StateCamera& c, const std::vector<PosePoint>& points, const std::string& file)
-{
-	for (const PosePoint& p : points)
-		if (p.u < -0.5 || p.v < -0.5 || p.u > c.width - 0.5 || p.v > c.height - 0.5)
-			throw Refused(fmt::format("{}:{}: pixel ({:g}, {:g}) lies outside the calibrated picture of {} x {}: measure in the photograph at its full size",
-				file, p.line, p.u, p.v, c.width, c.height));
 }
 
 /// Points within a thousandth of their length of one line leave the turn about it open.
@@ -115,11 +113,12 @@ CameraPose Finish(const PoseFit& fit, const PoseMinimum& best, double scale, dou
 	pose.location = fit.ToWorld(best.location);
 	pose.residuals = fit.Residuals(best);
 	pose.misfit = best.misfit;
+	pose.far_off = std::max(FAR_OFF_SIGMAS * scale, FAR_OFF_PX);
 	double sum = 0;
 	for (size_t i = 0; i < points.size(); ++i)
 	{
 		sum += pose.residuals[i].squaredNorm();
-		pose.outliers += pose.residuals[i].norm() > std::max(FAR_OFF_SIGMAS * scale, FAR_OFF_PX);
+		pose.outliers += pose.residuals[i].norm() > pose.far_off;
 		if (pose.residuals[i].norm() > pose.residuals[pose.worst].norm())
 			pose.worst = i;
 	}
@@ -137,8 +136,27 @@ CameraPose Finish(const PoseFit& fit, const PoseMinimum& best, double scale, dou
 
 }
 
+bool SeenAt(const StateCamera& camera, const CameraPose& pose, const Vec3<double>& world, Point& pixel)
+{
+	const Eigen::Vector3d p = pose.camera_from_world * (Eigen::Vector3d(world.x, world.y, world.z) - pose.location);
+	const Vec3<double> P{ p.x(), p.y(), p.z() }, n = camera.LensNormal();
+	if (!(P.z > 0) || !(Dot(P, n) > 0))
+		return false;
+	Project(camera.ImageDistancePx(), camera.distortion.data(), camera.principal_point.data(), n, P, pixel.data());
+	return true;
+}
+
+void RefuseOutside(const StateCamera& c, const std::vector<PosePoint>& points, const std::string& file)
+{
+	for (const PosePoint& p : points)
+		if (p.u < -0.5 || p.v < -0.5 || p.u > c.width - 0.5 || p.v > c.height - 0.5)
+			throw Refused(fmt::format("{}:{}: pixel ({:g}, {:g}) lies outside the calibrated picture of {} x {}: measure in the photograph at its full size",
+				file, p.line, p.u, p.v, c.width, c.height));
+}
+
 CameraPose SolvePose(const StateCamera& camera, const std::vector<PosePoint>& points, const std::string& file)
 {
+	RefuseNowhere(points, file);
 	RefuseFew(points, file);
 	RefuseOutside(camera, points, file);
 	const PoseFit fit(camera, points);
@@ -158,11 +176,7 @@ CameraPose SolvePose(const StateCamera& camera, const std::vector<PosePoint>& po
 	}
 	const double noise = std::sqrt(best.misfit / static_cast<double>(2 * n - 6));
 	RefuseAmbiguous(fit, minima, std::max(noise, n < ENOUGH_FOR_SIGMA ? LEAST_NOISE_OF_FEW_PX : LEAST_NOISE_PX), n, file);
-	const CameraPose pose = Finish(fit, best, scale, noise, points, file);
-	if (pose.outliers > 0)
-		spdlog::warn("{}: {} of {} points are far off and hardly count; measure again line {} ({:.2f} px)", file, pose.outliers, n, points[pose.worst].line,
-			pose.residuals[pose.worst].norm());
-	return pose;
+	return Finish(fit, best, scale, noise, points, file);
 }
 
 }

@@ -9,6 +9,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <sstream>
 
 namespace tiltcal
@@ -32,17 +33,19 @@ std::string Stripped(const std::string& line)
 PosePoint ParsePoint(const std::string& text, const std::string& file, int line)
 {
 	double values[5];
-	const char* at = text.c_str();
-	for (int k = 0; k < 5; ++k)
+	const bool nowhere = text.rfind(",,", 0) == 0;
+	values[0] = values[1] = std::numeric_limits<double>::quiet_NaN();
+	const char* at = text.c_str() + (nowhere ? 2 : 0);
+	for (int k = nowhere ? 2 : 0; k < 5; ++k)
 	{
 		char* end = nullptr;
 		values[k] = std::strtod(at, &end);
 		const char expected = k < 4 ? ',' : '\0';
 		if (end == at || *end != expected || !std::isfinite(values[k]))
-			throw FileError(fmt::format("{}:{}: '{}' is not five numbers {}", file, line, text, HEADER));
+			throw FileError(fmt::format("{}:{}: '{}' is not five numbers {}; a point whose pixel is to be found begins with two commas", file, line, text, HEADER));
 		at = end + 1;
 	}
-	return { values[0], values[1], { values[2], values[3], values[4] }, line };
+	return { values[0], values[1], { values[2], values[3], values[4] }, line, nowhere ? Placed::NOWHERE : Placed::GIVEN };
 }
 
 }

@@ -3,7 +3,7 @@
 #   cmake -DTILTCAL= -DPOVRAY= -DSCENES=<scenes> -DCALIBRATION=<out of tiltcal calibrate> -DOUT= [-DWIDTH=1800] [-DSAMPLES=128]
 #         [-DPUT_IN=1] [-DPICTURE=composed.png] -P composition.cmake
 #
-# OUT receives pose.inc, pass0.exr to pass2.exr and the picture. Any step that fails ends it.
+# OUT receives pose.inc, pose-points.png, pass0.exr to pass2.exr and the picture. Any step that fails ends it.
 cmake_minimum_required(VERSION 3.25)
 foreach(name TILTCAL POVRAY SCENES CALIBRATION OUT)
 	if(NOT DEFINED ${name})
@@ -33,7 +33,7 @@ endfunction()
 message("[composition] placing the camera by points of the photograph")
 execute_process(
 	COMMAND "${TILTCAL}" pose --calibration "${CALIBRATION}/calibration.json" --state plus5 --points "${here}/points-plus5.csv"
-		--out "${OUT}/pose.inc"
+		--photo "${SCENES}/boxes/photos/scene/plus5.jpg" --overlay "${OUT}/pose-points.png" --out "${OUT}/pose.inc"
 	COMMAND_ERROR_IS_FATAL ANY)
 foreach(pass 0 1 2)
 	message("[composition] pass ${pass} of 0 to 2: ${WIDTH} x ${height}, ${SAMPLES} samples a pixel")

@@ -3,14 +3,13 @@
 // Poses from points that cv::projectPoints put into the picture.
 
 #include "error.h"
-#include "opencv_yaml.h"
 #include "pose.h"
+#include "posed_camera.h"
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <opencv2/calib3d.hpp>
 #include <unistd.h>
 
 #include <cmath>
@@ -24,57 +23,6 @@ namespace
 using namespace tiltcal;
 using Eigen::Vector3d;
 using testing::HasSubstr;
-
-StateCamera Tilted()
-{
-	StateCamera c;
-	c.state = "plus8";
-	c.width = 1800;
-	c.height = 1200;
-	c.pitch_mm = 0.02;
-	c.image_distance_mm = 48.32;
-	c.principal_point = { 911.7, 588.3 };
-	c.distortion = { -0.09, 0.12, 0.0013, -0.0021, 0 };
-	c.lens_tilt_deg = 8;
-	c.tilt_direction_deg = 40;
-	return c;
-}
-
-struct Scene
-{
-	Eigen::Matrix3d camera_from_world;
-	Vector3d location;
-};
-
-/// A camera at `location` that looks at `at`, rolled by 20 degrees.
-Scene LookAt(const Vector3d& location, const Vector3d& at)
-{
-	const Vector3d forward = (at - location).normalized();
-	const Vector3d right = Vector3d::UnitY().cross(forward).normalized();
-	Eigen::Matrix3d rows;
-	rows << right.transpose(), forward.cross(right).transpose(), forward.transpose();
-	return { Eigen::AngleAxisd(0.35, Vector3d::UnitZ()).toRotationMatrix() * rows, location };
-}
-
-/// Pixels by OpenCV's own tilted sensor model.
-std::vector<PosePoint> Photograph(const StateCamera& camera, const Scene& scene, const std::vector<Vector3d>& world, double noise = 0, unsigned seed = 1)
-{
-	const OpenCvCamera o = ToOpenCv(camera);
-	const cv::Matx33d K(o.fx, 0, o.centre[0], 0, o.fy, o.centre[1], 0, 0, 1);
-	const std::vector<double> coefficients{ o.distortion[0], o.distortion[1], o.distortion[2], o.distortion[3], o.distortion[4], 0, 0, 0, 0, 0, 0, 0, o.tau_x, o.tau_y };
-	const Eigen::Matrix3d opencv_from_world = OpenCvFromCamera(camera.LensNormal()) * scene.camera_from_world;
-	std::mt19937 random(seed);
-	std::normal_distribution<double> gauss(0, 1);
-	std::vector<PosePoint> points;
-	for (const Vector3d& X : world)
-	{
-		const Vector3d p = opencv_from_world * (X - scene.location);
-		std::vector<cv::Point2d> pixel;
-		cv::projectPoints(std::vector<cv::Point3d>{ { p.x(), p.y(), p.z() } }, cv::Vec3d(), cv::Vec3d(), K, coefficients, pixel);
-		points.push_back({ pixel[0].x + noise * gauss(random), pixel[0].y + noise * gauss(random), { X.x(), X.y(), X.z() }, static_cast<int>(points.size()) + 2 });
-	}
-	return points;
-}
 
 /// `n` points in a box of 300 x 200 x `depth` about the origin.
 std::vector<Vector3d> Box(size_t n, double depth, unsigned seed = 7)
@@ -90,12 +38,7 @@ std::vector<Vector3d> Box(size_t n, double depth, unsigned seed = 7)
 	return points;
 }
 
-const Scene SCENE = LookAt({ 250, 180, -700 }, { 10, -5, 0 });
-
-double Degrees(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b)
-{
-	return Eigen::AngleAxisd(a * b.transpose()).angle() * 180 / 3.14159265358979323846;
-}
+const PosedScene SCENE = LookAt({ 250, 180, -700 }, { 10, -5, 0 });
 
 std::string Refusal(const StateCamera& camera, const std::vector<PosePoint>& points)
 {
@@ -115,17 +58,17 @@ TEST(Pose, IsExactWithoutNoise)
 {
 	for (const size_t n : { 4, 5, 6, 20 })
 	{
-		const CameraPose pose = SolvePose(Tilted(), Photograph(Tilted(), SCENE, Box(n, 200)), "points.csv");
+		const CameraPose pose = SolvePose(TiltedCamera(), Photographed(TiltedCamera(), SCENE, Box(n, 200)), "points.csv");
 		// The solver stops at rounding: 1e-13 of the parameters, times the condition of the problem.
 		EXPECT_LT((pose.location - SCENE.location).norm(), 1e-6) << n;
-		EXPECT_LT(Degrees(pose.camera_from_world, SCENE.camera_from_world), 1e-6) << n;
+		EXPECT_LT(DegreesBetween(pose.camera_from_world, SCENE.camera_from_world), 1e-6) << n;
 		EXPECT_EQ(std::isfinite(pose.location_sigma.x()), n >= 6);
 	}
 }
 
 TEST(Pose, IsExactFromAPlane)
 {
-	const CameraPose pose = SolvePose(Tilted(), Photograph(Tilted(), SCENE, Box(12, 0)), "points.csv");
+	const CameraPose pose = SolvePose(TiltedCamera(), Photographed(TiltedCamera(), SCENE, Box(12, 0)), "points.csv");
 	EXPECT_LT((pose.location - SCENE.location).norm(), 1e-6);
 }
 
@@ -133,11 +76,11 @@ TEST(Pose, DoesNotDependOnTheUnit)
 {
 	for (const double unit : { 1e-7, 1e7 })
 	{
-		std::vector<PosePoint> points = Photograph(Tilted(), SCENE, Box(10, 200));
+		std::vector<PosePoint> points = Photographed(TiltedCamera(), SCENE, Box(10, 200));
 		// Far from the origin too, where differences lose 3 digits.
 		for (PosePoint& p : points)
 			p.world = { unit * (p.world.x + 1e5), unit * p.world.y, unit * p.world.z };
-		const CameraPose pose = SolvePose(Tilted(), points, "points.csv");
+		const CameraPose pose = SolvePose(TiltedCamera(), points, "points.csv");
 		EXPECT_LT((pose.location / unit - SCENE.location - Vector3d(1e5, 0, 0)).norm(), 1e-5) << unit;
 	}
 }
@@ -149,7 +92,7 @@ TEST(Pose, SigmasAreHonest)
 	double location = 0, rotation = 0;
 	for (unsigned seed = 1; seed <= trials; ++seed)
 	{
-		const CameraPose pose = SolvePose(Tilted(), Photograph(Tilted(), SCENE, Box(20, 200), 0.3, seed), "points.csv");
+		const CameraPose pose = SolvePose(TiltedCamera(), Photographed(TiltedCamera(), SCENE, Box(20, 200), 0.3, seed), "points.csv");
 		location += (pose.location - SCENE.location).cwiseQuotient(pose.location_sigma).squaredNorm() / 3 / trials;
 		// Small: the rotation vector about the camera's axes.
 		const Eigen::AngleAxisd error(pose.camera_from_world * SCENE.camera_from_world.transpose());
@@ -179,11 +122,11 @@ TEST(Pose, RandomScenesAreSolvedOrRefused)
 		// Not edge-on to a flat set.
 		if (flat && std::abs(from.normalized().z()) < 0.3)
 			continue;
-		const Scene scene = LookAt((600 + 300 * std::abs(unit(random))) * from.normalized(), { 5, 10, -3 });
-		const std::vector<PosePoint> points = Photograph(Tilted(), scene, Box(n, flat ? 0 : 150, seed), 0.2, seed);
+		const PosedScene scene = LookAt((600 + 300 * std::abs(unit(random))) * from.normalized(), { 5, 10, -3 });
+		const std::vector<PosePoint> points = Photographed(TiltedCamera(), scene, Box(n, flat ? 0 : 150, seed), 0.2, seed);
 		try
 		{
-			const CameraPose pose = SolvePose(Tilted(), points, "points.csv");
+			const CameraPose pose = SolvePose(TiltedCamera(), points, "points.csv");
 			++solved;
 			// 10 sigma: with 6 points the sigma itself, of 6 degrees of freedom, may be 3 times too small. Another camera
 			// that fits is hundreds of sigmas away.
@@ -201,9 +144,9 @@ TEST(Pose, RandomScenesAreSolvedOrRefused)
 
 TEST(Pose, NamesTheWorstPointAndStandsIt)
 {
-	std::vector<PosePoint> points = Photograph(Tilted(), SCENE, Box(12, 200), 0.2);
+	std::vector<PosePoint> points = Photographed(TiltedCamera(), SCENE, Box(12, 200), 0.2);
 	points[4].u += 60;
-	const CameraPose pose = SolvePose(Tilted(), points, "points.csv");
+	const CameraPose pose = SolvePose(TiltedCamera(), points, "points.csv");
 	EXPECT_EQ(pose.worst, 4u);
 	EXPECT_EQ(pose.outliers, 1);
 	// The other eleven leave some 0.3 mm; the false point alone would pull by tens.
@@ -213,39 +156,39 @@ TEST(Pose, NamesTheWorstPointAndStandsIt)
 
 TEST(Pose, RefusesTooFewAndOnALine)
 {
-	EXPECT_THAT(Refusal(Tilted(), Photograph(Tilted(), SCENE, Box(3, 200))), HasSubstr("at least 4"));
+	EXPECT_THAT(Refusal(TiltedCamera(), Photographed(TiltedCamera(), SCENE, Box(3, 200))), HasSubstr("at least 4"));
 	std::vector<Vector3d> twice = Box(3, 200);
 	twice.push_back(twice[0]);
-	EXPECT_THAT(Refusal(Tilted(), Photograph(Tilted(), SCENE, twice)), HasSubstr("at least 4"));
+	EXPECT_THAT(Refusal(TiltedCamera(), Photographed(TiltedCamera(), SCENE, twice)), HasSubstr("at least 4"));
 	std::vector<Vector3d> line;
 	for (const double t : { -1., -0.5, 0., 0.3, 0.8, 1. })
 		line.emplace_back(100 * t, 30 * t, 20 * t);
-	EXPECT_THAT(Refusal(Tilted(), Photograph(Tilted(), SCENE, line)), HasSubstr("on one line"));
+	EXPECT_THAT(Refusal(TiltedCamera(), Photographed(TiltedCamera(), SCENE, line)), HasSubstr("on one line"));
 }
 
 TEST(Pose, RefusesAMirroredWorld)
 {
-	std::vector<PosePoint> points = Photograph(Tilted(), SCENE, Box(12, 200), 0.2);
+	std::vector<PosePoint> points = Photographed(TiltedCamera(), SCENE, Box(12, 200), 0.2);
 	for (PosePoint& p : points)
 		p.world.z = -p.world.z;
-	EXPECT_THAT(Refusal(Tilted(), points), HasSubstr("mirrored"));
+	EXPECT_THAT(Refusal(TiltedCamera(), points), HasSubstr("mirrored"));
 }
 
 TEST(Pose, RefusesPointsThatAreNotThoseOfThePicture)
 {
-	std::vector<PosePoint> points = Photograph(Tilted(), SCENE, Box(12, 200));
+	std::vector<PosePoint> points = Photographed(TiltedCamera(), SCENE, Box(12, 200));
 	for (size_t i = 0; i < 12; ++i)
 		std::swap(points[i].world, points[(5 * i + 3) % 12].world);
-	EXPECT_THAT(Refusal(Tilted(), points), testing::AnyOf(HasSubstr("no camera fits"), HasSubstr("behind the camera")));
-	points = Photograph(Tilted(), SCENE, Box(12, 200));
+	EXPECT_THAT(Refusal(TiltedCamera(), points), testing::AnyOf(HasSubstr("no camera fits"), HasSubstr("behind the camera")));
+	points = Photographed(TiltedCamera(), SCENE, Box(12, 200));
 	points[2].u = 1900;
-	EXPECT_THAT(Refusal(Tilted(), points), HasSubstr("points.csv:4: pixel (1900"));
+	EXPECT_THAT(Refusal(TiltedCamera(), points), HasSubstr("points.csv:4: pixel (1900"));
 }
 
 TEST(Pose, RefusesPointsBehindTheCamera)
 {
 	// A camera amid its points: the plain projection puts those behind it into the picture too.
-	StateCamera camera = Tilted();
+	StateCamera camera = TiltedCamera();
 	camera.lens_tilt_deg = 0;
 	camera.distortion = {};
 	camera.principal_point = { 900, 600 };
@@ -264,8 +207,8 @@ TEST(Pose, SaysWhenAPlaneLeavesTwoCameras)
 	for (const double x : { -30., 30. })
 		for (const double y : { -30., 30. })
 			square.emplace_back(x, y, 0);
-	const Scene far = LookAt({ 150, 100, -2400 }, { 0, 0, 0 });
-	EXPECT_THAT(Refusal(Tilted(), Photograph(Tilted(), far, square, 0.05)), HasSubstr("two camera places"));
+	const PosedScene far = LookAt({ 150, 100, -2400 }, { 0, 0, 0 });
+	EXPECT_THAT(Refusal(TiltedCamera(), Photographed(TiltedCamera(), far, square, 0.05)), HasSubstr("two camera places"));
 }
 
 class Points : public testing::Test

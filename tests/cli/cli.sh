@@ -204,16 +204,27 @@ pose_refused)
 	camera; pose_points
 	head -4 points.csv >few.csv; refuses 1 "few.csv.*at least 4" pose --calibration camera.json --points few.csv
 	awk -F, 'NR > 1 { $5 = -$5 } 1' OFS=, points.csv >mirrored.csv; refuses 1 "mirrored.csv.*mirror" pose --calibration camera.json --points mirrored.csv
+	{ cat points.csv; echo ",,10,20,30"; } >nowhere.csv; refuses 1 "nowhere.csv:8.*--photo" pose --calibration camera.json --points nowhere.csv
 	[ ! -e new ] || fail "something was written" ;;
+pose_photo) # the demo's photograph through the demo's kind of camera: tests/calib has the accuracy
+	camera; pose_points
+	expect 0 pose --calibration camera.json --points points.csv --photo "$photos/scene/untilted.jpg" --overlay new/points.png --out new/pose.inc
+	prints "reprojection"; [ -s new/points.png ] || fail "no overlay"
+	for word in Location Look_At Sky Camera; do grep -q "#declare TiltCal_Pose_$word = " new/pose.inc || fail "no TiltCal_Pose_$word"; done ;;
 pose_usage)
 	camera; pose_points
 	refuses 2 "state plus5.*untilted" pose --calibration camera.json --state plus5 --points points.csv
 	for unit in 0 -1 nan; do refuses 2 unit-mm pose --calibration camera.json --points points.csv --unit-mm=$unit; done
+	refuses 2 "overlay.*photo" pose --calibration camera.json --points points.csv --overlay new.png
+	refuses 2 window pose --calibration camera.json --points points.csv --window 1
+	sed 's/1800/900/; s/1200/600/' camera.json >small.json; sed 's/^\([0-9.]*\),\([0-9.]*\)/300,300/' points.csv >few.csv
+	refuses 2 "calibrated picture 900 x 600" pose --calibration small.json --points few.csv --photo "$photos/scene/untilted.jpg"
 	refuses 2 points pose --calibration camera.json ;;
 pose_unreadable)
 	camera; pose_points
 	refuses 3 nowhere.json pose --calibration nowhere.json --points points.csv
 	refuses 3 nowhere.csv pose --calibration camera.json --points nowhere.csv
+	refuses 3 nowhere.jpg pose --calibration camera.json --points points.csv --photo nowhere.jpg
 	sed 's/u_px/u/' points.csv >header.csv; refuses 3 "header.csv:1:" pose --calibration camera.json --points header.csv
 	sed '3s/,.*//' points.csv >cut.csv; refuses 3 "cut.csv:3:" pose --calibration camera.json --points cut.csv
 	head -c 200 camera.json >cut.json; refuses 3 "cut.json.*JSON" pose --calibration cut.json --points points.csv
