@@ -3,7 +3,8 @@
 #version 3.7;
 global_settings { assumed_gamma 1 }
 #ifndef (Exposure) #declare Exposure = 0.944; #end   // of the photograph: `tiltcal profile --match gain` finds it
-#declare Photo = function { pigment { image_map { jpeg "plus5.jpg" once } } }
+#ifndef (Photo_File) #declare Photo_File = "plus5.jpg"; #end
+#declare Photo = function { pigment { image_map { jpeg Photo_File once } } }
 #declare Without = function { pigment { image_map { exr "pass0.exr" once } } }
 #declare With = function { pigment { image_map { exr "pass1.exr" once } } }
 #declare Dragon = function { pigment { image_map { exr "pass2.exr" once } } }

@@ -1,7 +1,7 @@
-# A dragon in a photograph: places the calibrated camera by points of the photograph, renders three passes, combines them.
+# A dragon in a tilted photograph: places the calibrated camera by points of the photograph, renders three passes, combines them.
 #
-#   cmake -DTILTCAL= -DPOVRAY= -DSCENES=<scenes> -DCALIBRATION=<out of tiltcal calibrate> -DOUT= [-DWIDTH=1800] [-DSAMPLES=128]
-#         [-DPUT_IN=1] [-DPICTURE=composed.png] -P composition.cmake
+#   cmake -DTILTCAL= -DPOVRAY= -DSCENES=<scenes> -DCALIBRATION=<out of tiltcal calibrate> -DOUT= [-DSTATE=plus5]
+#         [-DWIDTH=1800] [-DSAMPLES=128] [-DPUT_IN=1] [-DPICTURE=composed.png] -P composition.cmake
 #
 # OUT receives pose.inc, pose-points.png, pass0.exr to pass2.exr and the picture. Any step that fails ends it.
 cmake_minimum_required(VERSION 3.25)
@@ -10,7 +10,7 @@ foreach(name TILTCAL POVRAY SCENES CALIBRATION OUT)
 		message(FATAL_ERROR "composition.cmake needs -D${name}=...")
 	endif()
 endforeach()
-foreach(pair WIDTH=1800 SAMPLES=128 PUT_IN=1 PICTURE=composed.png)
+foreach(pair STATE=plus5 WIDTH=1800 SAMPLES=128 PUT_IN=1 PICTURE=composed.png)
 	string(REGEX MATCH "([^=]*)=(.*)" ignored "${pair}")
 	if(NOT DEFINED ${CMAKE_MATCH_1})
 		set(${CMAKE_MATCH_1} "${CMAKE_MATCH_2}")
@@ -30,10 +30,10 @@ function(run_povray picture)
 	endif()
 endfunction()
 
-message("[composition] placing the camera by points of the photograph")
+message("[composition] ${STATE}: placing the camera by points of the photograph")
 execute_process(
-	COMMAND "${TILTCAL}" pose --calibration "${CALIBRATION}/calibration.json" --state plus5 --points "${here}/points-plus5.csv"
-		--photo "${SCENES}/boxes/photos/scene/plus5.jpg" --overlay "${OUT}/pose-points.png" --out "${OUT}/pose.inc"
+	COMMAND "${TILTCAL}" pose --calibration "${CALIBRATION}/calibration.json" --state ${STATE} --points "${here}/points-${STATE}.csv"
+		--photo "${SCENES}/boxes/photos/scene/${STATE}.jpg" --overlay "${OUT}/pose-points.png" --out "${OUT}/pose.inc"
 	COMMAND_ERROR_IS_FATAL ANY)
 foreach(pass 0 1 2)
 	message("[composition] pass ${pass} of 0 to 2: ${WIDTH} x ${height}, ${SAMPLES} samples a pixel")
@@ -44,5 +44,5 @@ set(format "")
 if(PICTURE MATCHES "\\.exr$")
 	set(format +FE)
 endif()
-run_povray("${PICTURE}" "+I${here}/combine.pov" ${format})
+run_povray("${PICTURE}" "+I${here}/combine.pov" ${format} "Declare=Photo_File=\"${STATE}.jpg\"")
 message("[composition] written to ${OUT}/${PICTURE}")
