@@ -143,14 +143,31 @@ struct FalloffGain
 	double gain = 0;
 };
 
+/// One rim of optical vignetting; at a distance < 0 it is behind the lens.
+struct RimEstimate
+{
+	Estimate radius_mm, distance_mm;
+};
+
+/// Whether there are two rims (second_rim.h).
+struct SecondRim
+{
+	bool used = false;
+	std::string why;                     ///< empty: it was not asked
+	double sigmas = 0;                   ///< of what its two numbers do to the fit
+	double held_out_without = 0, held_out_with = 0;   ///< RMS of brightness and places of edges left out, in sigmas; 0: not known
+};
+
 /// What a fit with some of the two kinds of vignetting finds (vignetting.h).
 struct FalloffAnswer
 {
 	bool fitted = false;
 	bool rim_seen = false;               ///< without it the rim cuts nothing, and its numbers are 0
-	Estimate radius_mm, distance_mm;     ///< of the rim
-	Estimate darkening;                  ///< what the rim takes of the patch that it darkens most, 0..1
-	/// Of that darkening, and of what the rim's two numbers do to the fit, the smaller one.
+	Estimate radius_mm, distance_mm;     ///< of the rim, the first of two
+	std::vector<RimEstimate> rims;       ///< all of them, that one first
+	SecondRim second;
+	Estimate darkening;                  ///< what the rims take of the patch that they darken most, 0..1
+	/// Of that darkening, and of what one rim's two numbers do to the fit, the smaller one.
 	double rim_sigmas = 0;
 	double rms = 0, held_out = 0;        ///< of the logarithm of the brightness; 0: there is nothing to leave out
 	std::vector<FalloffGain> gains;
@@ -189,6 +206,7 @@ struct Effect
 	double sigmas = 0;                       ///< how many standard deviations it is from nothing; NaN: it has no number of its own
 	double held_out_without = 0, held_out_with = 0;   ///< 0: not known
 	std::string unit;                        ///< of the latter
+	std::string note;                        ///< more to say; may be empty
 };
 
 struct Calibration

@@ -113,8 +113,16 @@ std::vector<FalloffUnknowns> Starts(const FalloffFit& fit, double focal_length, 
 
 }
 
+double LogLight(const FalloffFit& fit, const FalloffSample& s, const std::vector<tilt_lens::Rim>& rims)
+{
+	const double share = OpeningOf(s, fit.lens_radius, fit.image_distance, rims).area / (3.14159265358979323846 * fit.lens_radius * fit.lens_radius);
+	return (fit.natural ? s.log_natural : 0) + std::log(std::max(share, LEAST_SHARE));
+}
+
 double FalloffFit::Effects(const FalloffSample& s, const double* rim) const
 {
+	if (!rims.empty())
+		return LogLight(*this, s, rims);
 	return (natural ? s.log_natural : 0) + (optical ? LogOpenShare(s, lens_radius, rim) : 0);
 }
 

@@ -7,7 +7,7 @@
 #ifndef TILTCAL_FALLOFF_FIT_H
 #define TILTCAL_FALLOFF_FIT_H
 
-#include "camera.h"
+#include "pupil_opening.h"
 
 #include <Eigen/Core>
 
@@ -17,17 +17,19 @@ namespace tiltcal
 {
 
 /// One patch, and how the lens sees it.
-struct FalloffSample
+struct FalloffSample : PixelView
 {
 	size_t gain = 0;            ///< which number stands for its exposure
 	size_t light = 0;           ///< which pair of numbers for the gradient of its lighting
 	double place[2] = { 0, 0 }; ///< on the surface, about -1 to 1
-	Vec3<double> n{ 0, 0, 1 }, v{ 0, 0, 1 };   ///< lens normal; direction on the scene's side
-	double kappa = 0;           ///< inverse focus distance of v, 1/mm
 	double log_natural = 0;     ///< of NaturalFalloff
 	double log_value = 0;
 	double sigma = 0;           ///< of log_value
 };
+
+struct FalloffFit;
+/// Log of what the natural fall-off, where the fit has it, and the rims leave of a patch's light.
+double LogLight(const FalloffFit& fit, const FalloffSample& sample, const std::vector<tilt_lens::Rim>& rims);
 
 struct FalloffUnknowns
 {
@@ -41,6 +43,8 @@ struct FalloffFit
 	std::vector<FalloffSample> samples;
 	double lens_radius = 0;     ///< mm
 	bool natural = true, optical = true;
+	std::vector<tilt_lens::Rim> rims;   ///< mm; where there are any, they stand instead of the unknown one, and `optical` is false
+	double image_distance = 0;  ///< w, mm
 	bool gradients = true;      ///< else the light is even
 	double model_sigma = 0.02;  ///< what the model leaves out of log_value, common to all patches
 

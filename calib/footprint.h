@@ -25,18 +25,26 @@
 namespace tiltcal
 {
 
-/// Square of the width (px) across an edge at p (camera frame, mm) of the image of a point there. d mm, q 1/mm, n the
+/// How far (px) the lens point S moves an edge at p (camera frame, mm) across itself: -S times this. q 1/mm, n the
 /// unit lens normal. `curvature`: C, the mean of the tangential and the sagittal field curvature, and half their
-/// difference, C_t - C and C - C_s; 1/mm. G px/mm. Squared, because that is smooth where the width is 0.
+/// difference, C_t - C and C - C_s; 1/mm. G px/mm. It lies in the lens plane.
 template<typename T>
-inline T SquaredFootprintWidth(const T& d, const Vec3<T>& q, const Vec3<T>& n, const T* curvature, const Vec3<T>& p, const Vec3<T>& G)
+inline Vec3<T> MoveByLensPoint(const Vec3<T>& q, const Vec3<T>& n, const T* curvature, const Vec3<T>& p, const Vec3<T>& G)
 {
 	const Vec3<T> across = G - Dot(G, n) * n;
 	const T depth = Dot(p, n);
 	const Vec3<T> aside = p - depth * n;   // r times the unit vector along the radius
 	const T sagittal = T(1) - Dot(q, p) - (curvature[0] - curvature[1]) * tilt_lens::CurvatureTerm(n, p);
 	// sigma across = sagittal across + (tangential - sagittal) r r^T across, without dividing by r.
-	const Vec3<T> moved = sagittal * across - (T(2) * curvature[1] * Dot(aside, across) / depth) * aside;
+	return sagittal * across - (T(2) * curvature[1] * Dot(aside, across) / depth) * aside;
+}
+
+/// Square of the width (px) across an edge at p of the image of a point there. d mm, the rest as above. Squared, because
+/// that is smooth where the width is 0.
+template<typename T>
+inline T SquaredFootprintWidth(const T& d, const Vec3<T>& q, const Vec3<T>& n, const T* curvature, const Vec3<T>& p, const Vec3<T>& G)
+{
+	const Vec3<T> moved = MoveByLensPoint(q, n, curvature, p, G);
 	return d * d * Dot(moved, moved);
 }
 

@@ -4,10 +4,10 @@
 
 #include "calibrate.h"
 #include "falloff_fit.h"
+#include "second_rim.h"
 #include "robust.h"
 
 #include <fmt/format.h>
-#include <tilt_lens/field_curvature.h>
 #include <tilt_lens/natural_vignetting.h>
 
 #include <algorithm>
@@ -40,20 +40,15 @@ struct Data
 	size_t lights = 0;
 	std::vector<size_t> state, group;   ///< of every sample; groups are what is left out in turn
 	size_t groups = 0;
+	size_t first_edge_group = 0;        ///< of the board's first photograph, where its edges are looked at too
 };
 
 /// How the lens of state `s` sees a patch.
 FalloffSample Seen(const Calibration& c, size_t s, const BrightPatch& patch)
 {
-	const Geometry& g = MainGeometry(c);
-	const Vec3<double>& n = g.lens_normal[s];
-	const tilt_lens::LensBasis<double> basis = tilt_lens::BasisOfLensPlane(n);
-	const Vec3<double> pinhole{ (patch.u - g.principal_point[s][0]) / g.w_px, -(patch.v - g.principal_point[s][1]) / g.w_px, 1 };
 	FalloffSample sample;
-	sample.n = n;
-	sample.v = tilt_lens::UndistortDirection(g.distortion.data(), basis.a, basis.b, n, pinhole);
-	sample.kappa = tilt_lens::InverseFocusDistanceOnBowl(c.solution.states[s].q, c.solution.field_curvature.value, n, sample.v);
-	sample.log_natural = std::log(tilt_lens::NaturalFalloff(n, Vec3<double>{ 0, 0, 1 }, pinhole));
+	static_cast<PixelView&>(sample) = ViewOfPixel(c, s, patch.u, patch.v);
+	sample.log_natural = std::log(tilt_lens::NaturalFalloff(sample.n, Vec3<double>{ 0, 0, 1 }, sample.pixel));
 	sample.log_value = std::log(patch.value);
 	sample.sigma = patch.sigma / patch.value;
 	return sample;
@@ -90,6 +85,7 @@ Data FromFlatFields(const Calibration& c)
 			Add(c, fields[k].state, p, 0, { 0, 0 }, fields.size() > 1 ? k : quarter, data);
 		}
 	}
+	data.first_edge_group = data.groups;
 	return data;
 }
 
@@ -98,8 +94,9 @@ Data FromWhite(const Calibration& c)
 	Data data;
 	const Board& board = c.task.board;
 	const bool shared = MainGeometry(c).shared_poses;
+	size_t number = 0;
 	for (size_t s = 0; s < c.task.states.size(); ++s)
-		for (size_t p = 0; p < c.task.states[s].photos.size(); ++p)
+		for (size_t p = 0; p < c.task.states[s].photos.size(); ++p, ++number)
 		{
 			const std::vector<BrightPatch>& white = c.task.states[s].photos[p].white;
 			if (white.size() < FEWEST_PATCHES)
@@ -108,7 +105,7 @@ Data FromWhite(const Calibration& c)
 			data.exposures.push_back({ s, p });
 			data.lights = std::max(data.lights, light + 1);
 			for (const BrightPatch& patch : white)
-				Add(c, s, patch, light, { 2 * patch.board_column / board.columns - 1, 2 * patch.board_row / board.rows - 1 }, data.exposures.size() - 1, data);
+				Add(c, s, patch, light, { 2 * patch.board_column / board.columns - 1, 2 * patch.board_row / board.rows - 1 }, number, data);
 		}
 	return data;
 }
@@ -156,13 +153,14 @@ Eigen::Vector3d CovarianceSigmas(const FalloffFit& fit, const FalloffSample& dar
 }
 
 /// Every group in turn is left out; what the others say of it, with an exposure and lighting of its own.
+/// `known`: what they say of several rims, by group; empty: one rim, to be fitted.
 struct LeaveOut
 {
 	double held_out = 0;
 	Eigen::Vector3d sigmas = Eigen::Vector3d::Zero();
 };
 
-LeaveOut LeaveGroupsOut(const Data& data, const FalloffFit& fit, const FalloffSample& darkest, const FalloffUnknowns& x)
+LeaveOut LeaveGroupsOut(const Data& data, const FalloffFit& fit, const FalloffSample& darkest, const FalloffUnknowns& x, const std::vector<Rims>& known = {})
 {
 	LeaveOut result;
 	std::vector<Eigen::Vector3d> numbers;
@@ -176,9 +174,11 @@ LeaveOut LeaveGroupsOut(const Data& data, const FalloffFit& fit, const FalloffSa
 		for (size_t k = 0; k < fit.samples.size(); ++k)
 			(data.group[k] == group ? own : others).samples.push_back(fit.samples[k]);
 		FalloffUnknowns y = x;
-		if (own.samples.empty() || others.samples.empty() || (fit.optical && others.Minimise(y) >= 1e300))
+		if (own.samples.empty() || others.samples.empty() || (!known.empty() && known[group].empty()) || (fit.optical && others.Minimise(y) >= 1e300))
 			continue;
-		numbers.push_back(Numbers(fit, darkest, y.rim));
+		if (!known.empty())
+			own.rims = others.rims = known[group];
+		numbers.push_back(Numbers(others, darkest, y.rim));
 		own.SolveLighting(y);
 		for (const FalloffSample& s : own.samples)
 			squares += std::pow(std::min(std::abs(own.Residual(s, y)), MOST_HELD_OUT), 2);
@@ -198,6 +198,8 @@ LeaveOut LeaveGroupsOut(const Data& data, const FalloffFit& fit, const FalloffSa
 
 void FillPoints(const Data& data, const FalloffFit& fit, const FalloffUnknowns& x, FalloffAnswer& answer)
 {
+	answer.points.clear();
+	answer.gains.clear();
 	double squares = 0;
 	for (size_t k = 0; k < fit.samples.size(); ++k)
 	{
@@ -221,15 +223,24 @@ double SigmasOfRim(const FalloffFit& fit, FalloffUnknowns x)
 	return SigmasOfTwo(std::max(0.0, (no_rim - with_rim) / (with_rim / freedom)));
 }
 
-FalloffAnswer Fit(const Data& data, bool natural, bool optical, double focal_length)
+/// One of the four fits, and its answer.
+struct Fitted
 {
-	FalloffFit fit = data.fit;
+	FalloffFit fit;
+	FalloffUnknowns x;
+	FalloffAnswer answer;
+};
+
+Fitted Fit(const Data& data, bool natural, bool optical, double focal_length)
+{
+	Fitted f{ data.fit, Blank(data), {} };
+	FalloffFit& fit = f.fit;
+	FalloffUnknowns& x = f.x;
+	FalloffAnswer& answer = f.answer;
 	fit.natural = natural;
 	fit.optical = optical;
-	FalloffUnknowns x = Blank(data);
-	FalloffAnswer answer;
 	if (!fit.Search(focal_length, x))
-		return answer;
+		return f;
 	answer.fitted = true;
 	const FalloffSample& darkest = Darkest(fit, x.rim);
 	const LeaveOut left = LeaveGroupsOut(data, fit, darkest, x);
@@ -237,13 +248,35 @@ FalloffAnswer Fit(const Data& data, bool natural, bool optical, double focal_len
 	FillPoints(data, fit, x, answer);
 	answer.rim_seen = optical && Darkening(fit, darkest, x.rim) > 1e-6;
 	if (!answer.rim_seen)
-		return answer;
+		return f;
 	const Eigen::Vector3d sigma = CovarianceSigmas(fit, darkest, x).cwiseMax(left.sigmas);
 	answer.radius_mm = { std::exp(x.rim[0]), std::exp(x.rim[0]) * sigma[0] };
 	answer.distance_mm = { std::exp(x.rim[1]), std::exp(x.rim[1]) * sigma[1] };
+	answer.rims = { { answer.radius_mm, answer.distance_mm } };
 	answer.darkening = { Darkening(fit, darkest, x.rim), sigma[2] };
 	answer.rim_sigmas = std::min(answer.darkening.value / answer.darkening.sigma, SigmasOfRim(fit, x));
-	return answer;
+	return f;
+}
+
+/// Puts two rims in the place of the one where the photographs show them.
+void AddSecondRim(const Calibration& c, const Data& data, Fitted f, FalloffAnswer& answer)
+{
+	const RimFit start(f.fit, data.group, EdgeShifts(c), data.first_edge_group);
+	const TwoRims two = TrySecondRim(start, { answer.radius_mm.value, answer.distance_mm.value }, c.solution.focal_length.value);
+	answer.second = two.verdict;
+	if (!two.verdict.used)
+		return;
+	f.fit.optical = false;
+	f.fit.rims = two.rims;
+	f.fit.SolveLighting(f.x);
+	FillPoints(data, f.fit, f.x, answer);
+	const FalloffSample& darkest = Darkest(f.fit, f.x.rim);
+	const LeaveOut left = LeaveGroupsOut(data, f.fit, darkest, f.x, two.left_out);
+	answer.held_out = left.held_out;
+	answer.rims = two.estimates;
+	answer.radius_mm = two.estimates[0].radius_mm;
+	answer.distance_mm = two.estimates[0].distance_mm;
+	answer.darkening = { Darkening(f.fit, darkest, f.x.rim), std::max(left.sigmas[2], answer.darkening.sigma) };
 }
 
 /// Why no patch could be used.
@@ -286,9 +319,16 @@ Vignetting EstimateVignetting(const Calibration& c)
 		return result;
 	}
 	data.fit.lens_radius = 0.5 * c.solution.aperture_diameter.value;
-	for (const bool natural : { false, true })
-		for (const bool optical : { false, true })
-			result.answers[FalloffKind(natural, optical)] = Fit(data, natural, optical, c.solution.focal_length.value);
+	data.fit.image_distance = c.solution.w_mm.value > 0 ? c.solution.w_mm.value : MainGeometry(c).w_px * c.task.pitch_mm;
+	for (const bool optical : { false, true })
+		// With the natural fall-off first: where it foretells better, as it does, the rims beside it are those that count.
+		for (const bool natural : { true, false })
+		{
+			const Fitted fitted = Fit(data, natural, optical, c.solution.focal_length.value);
+			FalloffAnswer& answer = result.answers[FalloffKind(natural, optical)] = fitted.answer;
+			if (answer.rim_seen && answer.rim_sigmas > 0 && (natural || answer.held_out < result.answers[FalloffKind(true, true)].held_out))
+				AddSecondRim(c, data, fitted, answer);
+		}
 	return result;
 }
 

@@ -30,10 +30,10 @@ inline void CheckEffectWords(const LensSpec& spec)
 		Refuse("tilt_lens: the rotation of blades is not a finite number.");
 	if(!(spec.blade_curvature.value >= 0.0 && spec.blade_curvature.value <= 1.0))
 		Refuse("tilt_lens: the curvature of blades must lie between 0 (straight) and 1 (a circle), but is %g.", spec.blade_curvature.value);
-	if(spec.rim_radius && !(spec.rim_radius.value > 0.0 && IsFinite(spec.rim_radius.value) &&
-	                        spec.rim_distance.value > 0.0 && IsFinite(spec.rim_distance.value)))
-		Refuse("tilt_lens: the rim of vignetting optical must have a radius and a distance before the lens greater than 0, but has %g and %g.",
-		       spec.rim_radius.value, spec.rim_distance.value);
+	for(int i = 0; i < spec.rim_count; i++)
+		if(!(spec.rims[i].radius > 0.0 && IsFinite(spec.rims[i].radius) && IsFinite(spec.rims[i].distance)))
+			Refuse("tilt_lens: a rim of vignetting optical must have a radius greater than 0 and a finite distance before the lens, but has %g and %g.",
+			       spec.rims[i].radius, spec.rims[i].distance);
 	if(spec.pupil_magnification && !(spec.pupil_magnification.value > 0.01 && spec.pupil_magnification.value < 100.0))
 		Refuse("tilt_lens: pupil_magnification must lie between 0.01 and 100 (1.0 where both pupils are as large), but is %g.", spec.pupil_magnification.value);
 	for(int i = 0; i < Wavelengths; i++)
@@ -62,6 +62,17 @@ inline void CheckDistortion(const TiltLens& lens, const CameraVectors& camera)
 				Refuse("tilt_lens: the distortion folds inside the frame: no ideal point is imaged %.0f%% right and "
 				       "%.0f%% up of the centre. Use smaller coefficients or a narrower view.", 200.0 * x, 200.0 * y);
 		}
+}
+
+/// Refuses a rim beyond the sensor, which would cut nothing of its light.
+inline void CheckRims(const TiltLens& lens)
+{
+	const double sensor = lens.pupil_magnification * lens.image_distance;
+	for(int i = 0; i < lens.rim_count; i++)
+		// Room for the rounding of a distance that was to be the sensor's.
+		if(!(lens.rims[i].distance >= -sensor * (1.0 + 1e-9)))
+			Refuse("tilt_lens: a rim of vignetting optical lies %g behind the lens, beyond the sensor, which is %g behind it.",
+			       -lens.rims[i].distance, sensor);
 }
 
 /// Refuses a bowl that is too deep for numbers, or colours too far apart. At the rim of what the

@@ -77,8 +77,24 @@ void DarkenNaturally(const TiltLens& lens, LensRay& ray)
 
 void CutByRim(const TiltLens& lens, LensRay& ray)
 {
-	if(!PassesRim(ViewOfRim(lens.normal, ray.v, ray.kappa, lens.rim_distance), ray.S, lens.rim_radius))
+	if(!PassesRim(ViewOfRim(lens.normal, ray.v, ray.kappa, lens.rims[0].distance), ray.S, lens.rims[0].radius))
 		ray.weight = 0.0;
+}
+
+void CutByRims(const TiltLens& lens, LensRay& ray)
+{
+	for(int i = 0; i < lens.rim_count; i++)
+	{
+		const Rim& rim = lens.rims[i];
+		const RimView<double> view = rim.distance < 0.0
+			? ViewOfRimBehind(lens.normal, lens.axis, ray.pixel, lens.image_distance, lens.pupil_magnification, rim.distance)
+			: ViewOfRim(lens.normal, ray.v, ray.kappa, rim.distance);
+		if(!PassesRim(view, ray.S, rim.radius))
+		{
+			ray.weight = 0.0;
+			return;
+		}
+	}
 }
 
 bool Always(const TiltLens&) { return true; }
@@ -94,7 +110,10 @@ bool IsShifted(const TiltLens& lens) { return lens.shifted; }
 bool IsFlat(const TiltLens& lens) { return !lens.Curves(); }
 bool IsCurved(const TiltLens& lens) { return lens.Curves(); }
 bool FallsOff(const TiltLens& lens) { return lens.natural_vignetting; }
-bool HasRim(const TiltLens& lens) { return lens.rim_radius > 0.0; }
+bool HasRims(const TiltLens& lens) { return lens.rim_count > 0; }
+/// The usual case, for which no ray has to ask.
+bool HasOneBefore(const TiltLens& lens) { return lens.rim_count == 1 && !(lens.rims[0].distance < 0.0); }
+bool HasOthers(const TiltLens& lens) { return HasRims(lens) && !HasOneBefore(lens); }
 
 /// All there is, in the order in which a ray meets it. Those without a word are the lens itself;
 /// those without a step cost rays nothing here.
@@ -120,7 +139,8 @@ Order[] =
 	{ "chromatic axial", &FocusesColours, &FocusColour, false },
 	{ "", &Always, &LeaveLens, false },
 	{ "vignetting natural", &FallsOff, &DarkenNaturally, true },
-	{ "vignetting optical", &HasRim, &CutByRim, true }
+	{ "vignetting optical", &HasOneBefore, &CutByRim, true },
+	{ "vignetting optical", &HasOthers, &CutByRims, true }
 };
 
 void Take(const LensSpec& spec, TiltLens& lens)
@@ -135,8 +155,8 @@ void Take(const LensSpec& spec, TiltLens& lens)
 	lens.shifted = spec.shift.value.x != 0.0 || spec.shift.value.y != 0.0;
 	lens.pupil_magnification = spec.pupil_magnification ? spec.pupil_magnification.value : 1.0;
 	lens.natural_vignetting = spec.natural_vignetting;
-	lens.rim_radius = spec.rim_radius.value;
-	lens.rim_distance = spec.rim_distance.value;
+	std::copy(spec.rims, spec.rims + spec.rim_count, lens.rims);
+	lens.rim_count = spec.rim_count;
 	std::copy(spec.lateral, spec.lateral + Wavelengths, lens.lateral);
 	std::copy(spec.axial, spec.axial + Wavelengths, lens.axial);
 }
@@ -155,7 +175,7 @@ void SettleSteps(TiltLens& lens)
 		lens.moves_pinhole_rays |= effect.moves_pinhole_rays;
 	}
 	lens.steps[n] = NULL;
-	lens.weighs = FallsOff(lens) || HasRim(lens);
+	lens.weighs = FallsOff(lens) || HasRims(lens);
 	lens.splits = MagnifiesColours(lens) || FocusesColours(lens);
 }
 
@@ -168,6 +188,7 @@ void ResolveEffects(const LensSpec& spec, const CameraVectors& camera, TiltLens&
 	if(lens.distorts)
 		CheckDistortion(lens, camera);
 	CheckFocus(lens, camera);
+	CheckRims(lens);
 	SettleSteps(lens);
 }
 

@@ -11,6 +11,7 @@
 #include "blades.h"
 #include "distortion.h"
 #include "lens_ray.h"
+#include "optical_vignetting.h"
 #include "vec3.h"
 
 namespace tilt_lens
@@ -60,7 +61,8 @@ struct LensSpec
 	Given<double> blades;               ///< how many
 	Given<double> blade_rotation, blade_curvature;
 	bool natural_vignetting = false;
-	Given<double> rim_radius, rim_distance;     ///< vignetting optical R, Z
+	Rim rims[MostRims] = {};            ///< vignetting optical R, Z, R, Z ..
+	int rim_count = 0;
 	bool lateral_given = false, axial_given = false;
 	double lateral[Wavelengths] = {}, axial[Wavelengths] = {};
 	Given<double> pupil_magnification;
@@ -112,7 +114,8 @@ struct TiltLens
 	bool shifted = false, bokeh = false;
 	bool square = false;                ///< the opening of a bokeh pigment without blades, as wide as the aperture
 	bool natural_vignetting = false;
-	double rim_radius = 0.0, rim_distance = 0.0;    ///< of the second rim; 0: none
+	Rim rims[MostRims] = {};            ///< beside the aperture
+	int rim_count = 0;
 	double lateral[Wavelengths] = {}, axial[Wavelengths] = {};
 	double pupil_magnification = 1.0;
 

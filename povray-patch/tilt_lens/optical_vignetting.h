@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 //
-// The effect `vignetting optical R, Z`: a second rim of radius R, centred on the lens's
-// own axis at the distance Z before the lens and tilted with it. Seen from the side, the
-// two openings no longer cover each other: what is left is the shape of a cat's eye, and
-// so are the blur discs. The corners become darker by the part that is lost.
+// The effect `vignetting optical R, Z`: another rim of radius R, centred on the lens's
+// own axis at the distance Z before the lens (Z < 0: behind it) and tilted with it. Seen
+// from the side, the two openings no longer cover each other: what is left is the shape of
+// a cat's eye, and so are the blur discs. The corners become darker by the part that is
+// lost. A rim before the lens cuts a blur disc from one side, a rim behind it from the other.
 
 #ifndef TILT_LENS_OPTICAL_VIGNETTING_H
 #define TILT_LENS_OPTICAL_VIGNETTING_H
@@ -14,6 +15,15 @@
 
 namespace tilt_lens
 {
+
+/// Radius and distance before the lens.
+struct Rim
+{
+	double radius, distance;
+};
+
+/// As many as a lens may have beside its aperture.
+const int MostRims = 4;
 
 /// Where the ray from lens point S meets the plane of the rim, as an offset from the
 /// rim's centre Z n: s S + c with s = 1 - Z kappa / v.n and c = Z (v / v.n - n). It follows
@@ -33,6 +43,24 @@ inline RimView<T> ViewOfRim(const Vec3<T>& n, const Vec3<T>& v, const T& kappa, 
 {
 	const T depth = Dot(v, n);
 	return { T(1) - rim_distance * kappa / depth, (rim_distance / depth) * (v - depth * n) };
+}
+
+/// The same for a rim behind the lens, Z < 0, where the light goes from S to the pixel's point of
+/// the sensor, I = -w p with p the pixel's direction, p.e = 1. The segment S + t (I - S) meets the
+/// rim's plane where n.(t I) = Z, for n.S = 0: at t = -Z / (w p.n). From the rim's centre it is
+/// there at (1 - t) S + t I - Z n = (1 + Z / (w p.n)) S + Z (p / p.n - n): what ViewOfRim says of
+/// p with kappa = -1/w. Seen from behind, the lens is M times as large and M w before the sensor
+/// (pupil_magnification.h), and Z counts from there. At Z = 0 both views are the lens itself, at
+/// Z = -M w (sensor and lens parallel) the rim is a disc on the sensor.
+/// pixel: direction to the pixel from there (any length), n and e (sensor's normal) unit.
+template<typename T>
+inline RimView<T> ViewOfRimBehind(const Vec3<T>& n, const Vec3<T>& e, const Vec3<T>& pixel, const T& image_distance,
+                                  const T& pupil_magnification, const T& rim_distance)
+{
+	const T kappa = -Dot(e, pixel) / (pupil_magnification * image_distance);
+	RimView<T> view = ViewOfRim(n, pixel, kappa, rim_distance);
+	view.scale = view.scale * pupil_magnification;
+	return view;
 }
 
 /// Whether the ray that leaves lens point S passes the rim.

@@ -69,7 +69,7 @@ void Parser::Parse_Tilt_Lens_Blades(LensSpec& spec)
 		spec.blade_curvature = Parse_Float();
 }
 
-/// vignetting natural, vignetting optical R, Z; both may follow one word.
+/// vignetting natural, vignetting optical R, Z [, R, Z ...]; both may follow one word.
 void Parser::Parse_Tilt_Lens_Vignetting(LensSpec& spec)
 {
 	bool known = false;
@@ -84,16 +84,26 @@ void Parser::Parse_Tilt_Lens_Vignetting(LensSpec& spec)
 		}
 		else if (Accept_Tilt_Lens_Word("optical"))
 		{
-			if (spec.rim_radius.given)
-				Error("tilt_lens: vignetting optical is given twice.");
-			spec.rim_radius = Parse_Float();
-			Parse_Comma();
-			spec.rim_distance = Parse_Float();
+			if (spec.rim_count > 0)
+				Error("tilt_lens: vignetting optical is given twice; give another rim behind a comma: optical R, Z, R, Z.");
+			// As with distortion: only a comma says that another rim follows.
+			do
+			{
+				if (spec.rim_count == tilt_lens::MostRims)
+					Error("tilt_lens: vignetting optical takes at most %d rims.", tilt_lens::MostRims);
+				tilt_lens::Rim& rim = spec.rims[spec.rim_count++];
+				rim.radius = Parse_Float();
+				Parse_Comma();
+				rim.distance = Parse_Float();
+				Get_Token();
+			}
+			while (Token.Token_Id == COMMA_TOKEN);
+			Unget_Token();
 		}
 		else if (known)
 			return;
 		else
-			Error("tilt_lens: vignetting takes natural, or optical with the radius of a rim and its distance before the lens.");
+			Error("tilt_lens: vignetting takes natural, or optical with the radius of each rim and its distance before the lens.");
 		known = true;
 	}
 }
