@@ -26,7 +26,7 @@ struct EffectWords
 	std::string distortion;        ///< k1, k2, p1, p2, k3
 	std::string distortion_only_if;   ///< a condition, for `#if`; empty: always
 	bool natural_vignetting = false;
-	std::string optical_vignetting;   ///< R, Z
+	std::string optical_vignetting;   ///< R, Z of every rim
 	std::string optical_only_if;   ///< as distortion_only_if
 	std::string lateral, axial;    ///< red, blue
 	std::string blades;            ///< N rotation A curvature C

@@ -89,6 +89,16 @@ Effect CurvatureOf(const Calibration& c, const EffectChoice& choice)
 	return e;
 }
 
+std::string SecondRimText(const SecondRim& second)
+{
+	if (second.why.empty())
+		return "";
+	std::string text = fmt::format("second rim {}: {}", second.used ? "written" : "not written", second.why);
+	if (second.held_out_with > 0)
+		text += fmt::format("; {:.1f} sigma; error {:.4g} without, {:.4g} with it (sigmas of brightness and places of edges, photographs left out)", second.sigmas, second.held_out_without, second.held_out_with);
+	return text;
+}
+
 /// One kind of vignetting, with or without the other beside it.
 Effect VignettingOf(const Calibration& c, bool optical, bool beside)
 {
@@ -105,8 +115,15 @@ Effect VignettingOf(const Calibration& c, bool optical, bool beside)
 	e.sigmas = optical ? with.rim_sigmas : NOT_KNOWN;
 	if (e.failure.empty() && optical && !with.rim_seen)
 		e.failure = "no patch is darker than without a rim";
-	if (optical && e.failure.empty())
-		e.values = { { "R mm", with.radius_mm }, { "Z mm", with.distance_mm }, { "darkening at most", with.darkening } };
+	if (!optical || !e.failure.empty())
+		return e;
+	for (size_t k = 0; k < with.rims.size(); ++k)
+	{
+		e.values.emplace_back(k ? fmt::format("R{} mm", k + 1) : "R mm", with.rims[k].radius_mm);
+		e.values.emplace_back(k ? fmt::format("Z{} mm", k + 1) : "Z mm", with.rims[k].distance_mm);
+	}
+	e.values.emplace_back("darkening at most", with.darkening);
+	e.note = SecondRimText(with.second);
 	return e;
 }
 
@@ -277,6 +294,8 @@ std::string EffectsText(const Calibration& c)
 			out += fmt::format("  {:<19} {}{}\n", "", ValueText(e), std::isfinite(e.sigmas) && e.sigmas > 0 ? fmt::format(": {:.1f} sigma", e.sigmas) : "");
 		if (e.failure.empty() && e.held_out_with > 0)
 			out += fmt::format("  {:<19} error {:.4g} without, {:.4g} with it ({})\n", "", e.held_out_without, e.held_out_with, e.unit);
+		if (!e.note.empty())
+			out += fmt::format("  {:<19} {}\n", "", e.note);
 	}
 	return out;
 }

@@ -31,8 +31,8 @@ EffectWords WordsOf(const StateCamera& c, double unit_mm)
 	if (c.HasDistortion())
 		words.distortion = fmt::format("{:.10g}, {:.10g}, {:.10g}, {:.10g}, {:.10g}", c.distortion[0], c.distortion[1], c.distortion[2], c.distortion[3], c.distortion[4]);
 	words.natural_vignetting = c.natural_vignetting;
-	if (c.rim_mm)
-		words.optical_vignetting = Pair(*c.rim_mm, 1 / unit_mm);
+	for (const std::array<double, 2>& rim : c.rims_mm)
+		words.optical_vignetting += (words.optical_vignetting.empty() ? "" : ", ") + Pair(rim, 1 / unit_mm);
 	if (c.lateral)
 		words.lateral = Pair(*c.lateral, 1);
 	if (c.axial_per_mm)

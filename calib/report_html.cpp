@@ -129,7 +129,7 @@ std::string Effects(const Calibration& c)
 	if (!c.vignetting.failure.empty())
 		return out;
 	out += "<h3>Fall-off of the light</h3>\n<p>Each dot is an evenly bright patch, its exposure and the gradient of its lighting taken out; the ring is what the model says of it. Patches at one angle differ "
-		"where a rim cuts a lens that is tilted or focused obliquely.</p>\n<div class=\"pair\">\n";
+		"where rims cut a lens that is tilted or focused obliquely.</p>\n<div class=\"pair\">\n";
 	for (size_t s = 0; s < c.task.states.size(); ++s)
 	{
 		const std::string plot = FalloffPlot(c, s);

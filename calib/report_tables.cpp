@@ -173,7 +173,7 @@ std::string EffectsTable(const Calibration& c)
 			values += (values.empty() ? "" : "<br/>") + Escape(name) + " " + (value.sigma > 0 ? WithSigma(value, "") : fmt::format("{:g}", value.value));
 		rows.push_back({ Escape(e.name), known && !values.empty() ? values : "–", known && e.sigmas > 0 ? Number(e.sigmas, 1) + " sigma" : "–",
 			known && e.held_out_without > 0 ? fmt::format("{:.3g}", e.held_out_without) : "–", known && e.held_out_with > 0 ? fmt::format("{:.3g}", e.held_out_with) : "–",
-			known && e.held_out_with > 0 ? Escape(e.unit) : "–", e.used ? "<b>yes</b>" : "no", Escape(e.why) });
+			known && e.held_out_with > 0 ? Escape(e.unit) : "–", e.used ? "<b>yes</b>" : "no", Escape(e.why) + (e.note.empty() ? "" : "<br/>" + Escape(e.note)) });
 	}
 	return "<div class=\"wide effects\">" + html::Table(rows) + "</div>\n";
 }

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <tilt_lens/optical_vignetting.h>
 
 #include <cmath>
 #include <limits>
@@ -123,6 +124,21 @@ bool Used(const Node& effects, const std::string& name)
 
 std::array<double, 2> Pair(const Node& node, const char* first, const char* second) { return { node[first].Number(), node[second].Number() }; }
 
+/// Old files have the first one only.
+std::vector<std::array<double, 2>> ReadRims(const Node& optical)
+{
+	if (!optical.json->contains("rims"))
+		return { Pair(optical, "radius_mm", "distance_mm") };
+	const Node list = optical["rims"];
+	list.NeedList(0);
+	if (list.json->empty() || list.json->size() > size_t(tilt_lens::MostRims))
+		list.Fail(fmt::format("has {} rims, not 1 to {}", list.json->size(), tilt_lens::MostRims));
+	std::vector<std::array<double, 2>> rims;
+	for (size_t i = 0; i < list.json->size(); ++i)
+		rims.push_back(Pair(list.At(i), "radius_mm", "distance_mm"));
+	return rims;
+}
+
 /// What the list `effects` says is used. Files of import, and old ones, have none.
 void ReadEffects(const Node& top, StateCamera& c)
 {
@@ -132,7 +148,7 @@ void ReadEffects(const Node& top, StateCamera& c)
 	effects.NeedList(0);
 	c.natural_vignetting = Used(effects, "vignetting_natural");
 	if (Used(effects, "vignetting_optical"))
-		c.rim_mm = Pair(top["vignetting"]["optical"], "radius_mm", "distance_mm");
+		c.rims_mm = ReadRims(top["vignetting"]["optical"]);
 	if (Used(effects, "chromatic_lateral"))
 		c.lateral = Pair(top["chromatic"], "lateral_red", "lateral_blue");
 	if (Used(effects, "chromatic_axial"))

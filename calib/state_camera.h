@@ -30,7 +30,7 @@ struct StateCamera
 	double field_curvature_per_mm = 0;
 	// Effects that the calibration writes; empty or false: not.
 	bool natural_vignetting = false;
-	std::optional<std::array<double, 2>> rim_mm;            ///< R, Z
+	std::vector<std::array<double, 2>> rims_mm;             ///< R, Z of each
 	std::optional<std::array<double, 2>> lateral, axial_per_mm;   ///< red, blue
 	FixedBlades blades;                ///< the aperture's diameter is that of the circle through their corners
 

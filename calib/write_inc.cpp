@@ -63,6 +63,9 @@ std::string ApertureText(const Calibration& c, const Solution& solution, const s
 		widening > 1 ? fmt::format("mm, of the circle through the blades' corners: blurs edges like a disc of {:.10g} mm", d.value) : "mm");
 }
 
+/// Rim, Rim2: in the names of the rims' numbers.
+std::string RimName(size_t k) { return k ? fmt::format("Rim{}", k + 1) : "Rim"; }
+
 /// Those of vignetting and chromatic aberration: all that was estimated.
 std::string EffectNumbers(const Calibration& c, const std::string& prefix)
 {
@@ -71,8 +74,12 @@ std::string EffectNumbers(const Calibration& c, const std::string& prefix)
 	if (falloff.rim_seen)
 	{
 		const std::string unused = Unused(c, "vignetting_optical");
-		out += Declare(prefix, "Rim_Radius", falloff.radius_mm, "mm, of the rim that vignettes" + unused);
-		out += Declare(prefix, "Rim_Distance", falloff.distance_mm, "mm, before the lens" + unused);
+		for (size_t k = 0; k < falloff.rims.size(); ++k)
+		{
+			const RimEstimate& rim = falloff.rims[k];
+			out += Declare(prefix, RimName(k) + "_Radius", rim.radius_mm, "mm, of the rim that vignettes" + unused);
+			out += Declare(prefix, RimName(k) + "_Distance", rim.distance_mm, (rim.distance_mm.value < 0 ? "mm before the lens: behind it" : "mm, before the lens") + unused);
+		}
 	}
 	if (!c.chromatic.failure.empty())
 		return out;
@@ -98,7 +105,8 @@ EffectWords WordsOf(const Calibration& c, const std::string& p)
 	words.natural_vignetting = Uses(c, "vignetting_natural");
 	if (Uses(c, "vignetting_optical"))
 	{
-		words.optical_vignetting = fmt::format("{0}_Rim_Radius, {0}_Rim_Distance", p);
+		for (size_t k = 0; k < RimOf(c).rims.size(); ++k)
+			words.optical_vignetting += fmt::format("{0}{1}_{2}_Radius, {1}_{2}_Distance", k ? ", " : "", p, RimName(k));
 		words.optical_only_if = "TiltCal_Rim";
 	}
 	if (Uses(c, "chromatic_lateral"))
@@ -197,10 +205,15 @@ std::string CameraInc(const Calibration& c, size_t s)
 		name, TILTCAL_VERSION, c.solution.model, c.task.width, c.task.height, RenderGeometry(c).rms,
 		distorted ? fmt::format("without distortion, {:.3f} px with it", MainGeometry(c).rms) : "without distortion, which this lens does not need", BlurSamplesDefault());
 	if (Uses(c, "vignetting_optical"))
-		out += "// 1: with the second rim, which darkens corners as the photographs' are and cuts blur discs to cat's\n"
-			"// eyes. A real lens has rims on both sides: where much is cut, the middle of\n"
-			"// a blurred edge moves. 0: without it.\n"
-			"#ifndef (TiltCal_Rim)\n\t#declare TiltCal_Rim = 1;\n#end\n\n";
+	{
+		out += RimOf(c).rims.size() > 1
+			? "// 1: with the rims beside the aperture, which darken corners as the photographs' are and cut blur discs\n"
+			  "// to cat's eyes. 0: without them.\n"
+			: "// 1: with the second rim, which darkens corners as the photographs' are and cuts blur discs to cat's\n"
+			  "// eyes. A real lens has rims on both sides: where much is cut, the middle of\n"
+			  "// a blurred edge moves. 0: without it.\n";
+		out += "#ifndef (TiltCal_Rim)\n\t#declare TiltCal_Rim = 1;\n#end\n\n";
+	}
 	if (distorted)
 		out += "// 1: with the lens's distortion, which acts about the tilted lens axis. 0: the best\n"
 			"// camera without it, fitted as such.\n"

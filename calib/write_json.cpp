@@ -153,6 +153,15 @@ Json VignettingJson(const Calibration& c)
 		Put(json["optical"], "distance", "_mm", rim.distance_mm);
 		Put(json["optical"], "darkening", "", rim.darkening);
 		json["optical"]["used"] = Uses(c, "vignetting_optical");
+		for (const RimEstimate& r : rim.rims)
+		{
+			Json& entry = json["optical"]["rims"].emplace_back();
+			Put(entry, "radius", "_mm", r.radius_mm);
+			Put(entry, "distance", "_mm", r.distance_mm);   // < 0: behind the lens
+		}
+		if (!rim.second.why.empty())
+			json["optical"]["second"] = { { "used", rim.second.used }, { "sigmas", Rounded(rim.second.sigmas) }, { "held_out_sigmas_without", Rounded(rim.second.held_out_without) },
+				{ "held_out_sigmas_with", Rounded(rim.second.held_out_with) }, { "why", rim.second.why } };
 	}
 	json["told_by"] = v.flat_field ? "flat fields" : "white squares";
 	json["patches"] = a.points.size();

@@ -52,6 +52,7 @@ std::vector<Camera> Cameras()
 		{"`bokeh`, a plain pigment", "", Pigment, {"OpenSquare", Plane, Leave}},
 		{"`vignetting natural`", "vignetting natural", "", {Disc, Plane, Leave, "DarkenNaturally"}},
 		{"`vignetting optical`, all rays pass", "vignetting optical 9, 1", "", {Disc, Plane, Leave, "CutByRim"}},
+		{"`vignetting optical`, two rims, all rays pass", "vignetting optical 9, 1, 9, -1", "", {Disc, Plane, Leave, "CutByRims"}},
 		{"`pupil_magnification`", "pupil_magnification 1.1", "", {"PassPupils", Disc, Plane, Leave}},
 		{"`chromatic lateral`, three rays", "chromatic lateral 0.001, -0.001", "", {"MagnifyColour", Disc, Plane, Leave}},
 		{"`chromatic lateral` and `axial`, three rays", "chromatic lateral 0.001, -0.001 axial 0.001, -0.001", "",

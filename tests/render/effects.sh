@@ -60,6 +60,23 @@ rim)
 	check "a real rim" "$compare" rms 0.0004 real.exr rim.exr
 	picture open "$words" 'blur_samples 64 variance 0'
 	check "is seen" "$compare" differ 0.05 open.exr rim.exr
+	# Rims that cut nothing change nothing; one at the lens itself is a smaller aperture's edge, wherever it is said to be; one at the sensor,
+	# 1.5 behind an untilted lens, is a disc of the picture, which is 4/3 x 1 there: its corners are 0.833 from the middle, its sides 0.5.
+	picture wide "$words vignetting optical 0.25, 0.7, 1e30, -1, 1e30, 0, 1e30, 3" 'blur_samples 64 variance 0'
+	check "wide rims" "$compare" rms 0 wide.exr rim.exr
+	picture order "$words vignetting optical 0.3, -0.8, 0.25, 0.7" 'blur_samples 64 variance 0'
+	picture other "$words vignetting optical 0.25, 0.7, 0.3, -0.8" 'blur_samples 64 variance 0'
+	check "their order" "$compare" rms 0 order.exr other.exr
+	check "the one behind is seen" "$compare" differ 0.02 rim.exr other.exr
+	picture at_lens "$words vignetting optical 0.15, 0" 'blur_samples 64 variance 0'
+	picture just_behind "$words vignetting optical 0.15, -1e-12" 'blur_samples 64 variance 0'
+	check "a rim at the lens" "$compare" rms 0 at_lens.exr just_behind.exr
+	check "is seen there" "$compare" differ 0.05 at_lens.exr open.exr
+	picture sensor 'focal_distance 8 aperture_diameter 0.4 vignetting optical 0.6, -1.5' 'blur_samples 16 variance 0'
+	picture whole 'focal_distance 8 aperture_diameter 0.4' 'blur_samples 16 variance 0'
+	check "a rim at the sensor" "$compare" differ 0.05 sensor.exr whole.exr
+	picture all_of_it 'focal_distance 8 aperture_diameter 0.4 vignetting optical 0.84, -1.5' 'blur_samples 16 variance 0'
+	check "beyond the corners" "$compare" rms 0 all_of_it.exr whole.exr
 	;;
 bokeh)
 	# A round white pigment is the round opening: 0.0025 RMS is what two sets of 512 samples differ by.

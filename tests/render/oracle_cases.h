@@ -31,6 +31,7 @@ struct Camera
 	int blades = 0;
 	double blade_rotation = 0; // degrees
 	double rim_radius = 0, rim_distance = 0; // a second rim before the lens; 0: none
+	double rear_radius = 0, rear_distance = 0; // a rim so far behind it; 0: none
 	double lateral[3] = {0, 0, 0}, axial[3] = {0, 0, 0}; // red, green, blue
 	bool Splits() const { return lateral[0] != 0 || axial[0] != 0; }
 	std::string effects; // the same in words

@@ -77,16 +77,20 @@ std::vector<Vector> LensPoints(const Camera& camera, int frames)
 	return points;
 }
 
+// The shift inside the pixel makes the mean a box filter over it, as the camera's own samples are.
+std::array<Vector, 3> WindowOfFrame(const Camera& camera, int i)
+{
+	const auto [centre, right, up] = Window(camera);
+	return {Plus(centre, Plus(Times(right, (RadicalInverse(5, i) - 0.5) / WIDTH), Times(up, (RadicalInverse(7, i) - 0.5) / HEIGHT))), right, up};
+}
+
 // The pinhole camera of frame i (from 1 on) through lens point S in one colour: location, direction, right, up, in
 // the camera's own frame.
 std::array<Vector, 4> Pinhole(const Camera& camera, int colour, const Vector& S, int i)
 {
 	const Lens lens = LensOf(camera, colour);
 
-	// The shift inside the pixel makes the mean a box filter over it, as the camera's own samples are.
-	const auto [centre, right, up] = Window(camera);
-	const Vector direction = Plus(centre, Plus(Times(right, (RadicalInverse(5, i) - 0.5) / WIDTH),
-		Times(up, (RadicalInverse(7, i) - 0.5) / HEIGHT)));
+	const auto [direction, right, up] = WindowOfFrame(camera, i);
 	// A colour whose image is larger shows less of the scene: across the lens axis by that much.
 	const auto L = [&](const Vector& v) {
 		const Vector along = Times(lens.n, Dot(v, lens.n));
@@ -104,6 +108,29 @@ std::string Rim(const Camera& camera)
 	const Vector n = LensOf(camera).n;
 	return "disc { " + Sdl(Times(n, camera.rim_distance)) + ", " + Sdl(n) + ", 50, " + Sdl(camera.rim_radius) +
 		" pigment { rgb 0 } finish { ambient 0 diffuse 0 } no_shadow no_reflection " + Placement(camera) + camera.moves + " }\n";
+}
+
+// A rim behind the lens cannot be a thing of the scene, where light goes from the pinhole on. It keeps back what on its way from
+// the lens point to the sensor crosses its plane outside of it: straight lines in the world.
+void KeepBackBehind(const Camera& camera, const Vector& S, int i, Picture& picture)
+{
+	if (camera.rear_radius == 0)
+		return;
+	const Vector centre = InWorld(camera, {0, 0, 0}), from = InWorld(camera, S), n = LensOf(camera).n;
+	const Vector axis = Plus(InWorld(camera, n), Times(centre, -1)), rim = Plus(centre, Times(axis, -camera.rear_distance));
+	const auto [direction, right, up] = WindowOfFrame(camera, i);
+	for (int y = 0; y < HEIGHT; ++y)
+		for (int x = 0; x < WIDTH; ++x)
+		{
+			// The window, turned about the lens centre, is the sensor.
+			const Vector v = Plus(direction, Plus(Times(right, (x + 0.5) / WIDTH - 0.5), Times(up, 0.5 - (y + 0.5) / HEIGHT)));
+			const Vector way = Plus(InWorld(camera, Times(v, -1)), Times(from, -1));
+			const double share = Dot(axis, Plus(rim, Times(from, -1))) / Dot(axis, way);
+			const Vector off = Plus(Plus(from, Times(way, share)), Times(rim, -1));
+			if (Dot(off, off) > camera.rear_radius * camera.rear_radius)
+				for (std::size_t c = 0; c < 3; ++c)
+					picture.rgb[3 * std::size_t(y * WIDTH + x) + c] = 0;
+		}
 }
 
 // The sum of a batch of pinhole pictures, rendered as one animation in a folder of its own.
@@ -128,8 +155,9 @@ Picture SumOfPinholes(const Camera& camera, int colour, const fs::path& scene, c
 	{
 		std::ostringstream name;
 		name << "frame" << std::setw(digits) << std::setfill('0') << i << ".exr";
-		const Picture picture = ReadExr((work / name.str()).string());
+		Picture picture = ReadExr((work / name.str()).string());
 		fs::remove(work / name.str());
+		KeepBackBehind(camera, lens_points[std::size_t(first + i - 2)], first + i - 1, picture);
 		if (i == 1)
 			sum = picture;
 		else

@@ -125,6 +125,18 @@ TEST(Effects, OnlyWhatIsNamedHasAStep)
 	EXPECT_TRUE(lens.weighs && lens.splits && lens.moves_pinhole_rays);
 	EXPECT_EQ(EffectNames(lens), "blades, field_curvature, chromatic axial, vignetting natural");
 
+	// One rim before the lens has a step of its own, any others have one together; the effect is named once.
+	spec = LensSpec();
+	spec.enabled = true;
+	spec.rims[0] = { 1.0, 4.0 };
+	spec.rims[1] = { 1.0, 0.0 };
+	for(spec.rim_count = 1; spec.rim_count <= 2; spec.rim_count++)
+	{
+		EXPECT_EQ(StepsOf(Resolved(spec)), 4);
+		EXPECT_EQ(EffectNames(Resolved(spec)), "vignetting optical");
+		EXPECT_TRUE(Resolved(spec).weighs && Resolved(spec).moves_pinhole_rays);
+	}
+
 	spec = LensSpec();
 	spec.enabled = true;
 	spec.lateral_given = true;
@@ -139,9 +151,15 @@ TEST(Effects, RefusalsSayWhatIsAllowed)
 	spec.blades = 5.5;
 	EXPECT_THAT(RefusalOf(spec), HasSubstr("whole number from 3 to 64, but is 5.5"));
 	spec = good;
-	spec.rim_radius = 0.0;
-	spec.rim_distance = 4.0;
-	EXPECT_THAT(RefusalOf(spec), HasSubstr("greater than 0, but has 0 and 4"));
+	for(const Rim rim : { Rim{ 0.0, 4.0 }, Rim{ -1.0, 4.0 }, Rim{ 1.0, HUGE_VAL }, Rim{ std::nan(""), 1.0 } })
+	{
+		spec.rim_count = 2;
+		spec.rims[0] = { 1.0, 4.0 };
+		spec.rims[1] = rim;
+		EXPECT_THAT(RefusalOf(spec), HasSubstr("a radius greater than 0 and a finite distance")) << rim.radius << " " << rim.distance;
+	}
+	spec.rims[1] = { 1.0, -1e6 };
+	EXPECT_THAT(RefusalOf(spec), HasSubstr("1e+06 behind the lens, beyond the sensor"));
 	spec = good;
 	spec.pupil_magnification = -1.0;
 	EXPECT_THAT(RefusalOf(spec), HasSubstr("but is -1"));

@@ -104,6 +104,49 @@ TEST(OpticalVignetting, AsksWhereTheRayMeetsTheRimsPlane)
 	EXPECT_LT(passed, 1600);
 }
 
+// Behind the lens the ray goes from S to a point of the sensor: the straight line between the two, in world coordinates. With pupils of
+// different size it begins M S and ends M w behind.
+TEST(OpticalVignetting, AsksWhereTheLightMeetsARimBehindTheLens)
+{
+	std::mt19937 random(2);
+	std::uniform_real_distribution<double> u(-1, 1);
+	int passed = 0;
+	for(int i = 0; i < 2000; i++)
+	{
+		const V n = LensNormalFromTilt(20 * Degree * u(random), 180 * Degree * u(random)), e = { 0, 0, 1 };
+		const LensBasis<double> basis = BasisOfLensPlane(n);
+		const double w = 1.5 + 0.5 * u(random), M = 1 + 0.3 * u(random), Z = -0.4 * (1.01 + u(random)), R = 0.35 + 0.15 * u(random);
+		const V S = (0.4 * u(random)) * basis.a + (0.4 * u(random)) * basis.b, p = { 0.5 * u(random), 0.5 * u(random), 1 };
+		const V from = M * S, to = (-M * w) * p;
+		const double t = (Z - Dot(from, n)) / (Dot(to, n) - Dot(from, n));
+		const V met = from + t * (to - from);
+		const RimView<double> view = ViewOfRimBehind(n, e, 48.2 * p, w, M, Z);   // any length
+		EXPECT_NEAR(Length(view.scale * S + view.offset - (met - Z * n)), 0, 1e-14);
+		const bool passes = Length(met - Z * n) <= R;
+		EXPECT_EQ(PassesRim(view, S, R), passes);
+		passed += passes;
+	}
+	EXPECT_GT(passed, 400);
+	EXPECT_LT(passed, 1600);
+}
+
+// At the lens itself both views are the lens; at the sensor a rim is a disc on it, whatever the lens point.
+TEST(OpticalVignetting, RimsAtTheLensAndAtTheSensor)
+{
+	const V e = { 0, 0, 1 }, p = { 0.3, -0.2, 1 }, S = { 0.1, 0.05, 0 };
+	for(const RimView<double>& view : { ViewOfRim(e, p, 0.7, 0.0), ViewOfRimBehind(e, e, p, 2.0, 1.0, 0.0) })
+	{
+		EXPECT_EQ(view.scale, 1);
+		EXPECT_EQ(Length(view.offset), 0);
+	}
+	const RimView<double> sensor = ViewOfRimBehind(e, e, p, 2.0, 1.0, -2.0);
+	EXPECT_NEAR(sensor.scale, 0, 1e-15);
+	EXPECT_NEAR(Length(sensor.offset + 2.0 * V{ 0.3, -0.2, 0 }), 0, 1e-15);
+	EXPECT_TRUE(PassesRim(sensor, S, 0.722));   // 2 |p - e| = 0.7211
+	EXPECT_FALSE(PassesRim(sensor, S, 0.720));
+	EXPECT_TRUE(PassesRim(sensor, S, 1e30));
+}
+
 // 65536 points by the sampler's own map: their number follows the area to about 0.002.
 TEST(OpticalVignetting, ShareIsThePartOfLensPointsThatPass)
 {
