@@ -23,15 +23,65 @@ Vec Normal(const Lens& lens)
 	return { -std::sin(phi) * std::sin(t), -std::cos(phi) * std::sin(t), std::cos(t) };
 }
 
-/// Whether the ray that the lens point S sends to the focus of the direction v passes the rim.
-bool Passes(const Lens& lens, const Shade& shade, const Vec& n, const Vec& v, const Vec& S)
+/// Where the line from S to `to` meets the plane at the depth Z of the lens's axis, seen from the axis.
+double OffAxis(const Vec& n, const Vec& S, const Vec& to, double Z)
 {
-	const double image_depth = lens.w * v.dot(n);   // v.z is 1
-	const double inverse_depth = 1 / lens.f - 1 / image_depth;
-	// The line through S and the point v s, s its depth, in a form that holds at infinity.
-	const Vec ray = v / v.dot(n) - inverse_depth * S;
-	const Vec met = S + shade.rim_distance / ray.dot(n) * ray;
-	return (met - shade.rim_distance * n).norm() <= shade.rim_radius;
+	return (S + (Z - S.dot(n)) / (to - S).dot(n) * (to - S) - Z * n).norm();
+}
+
+/// Whether what goes from the scene's point `from` (any point of the ray before the lens) through S to the sensor's point `to` passes all rims.
+bool Passes(const Shade& shade, const Vec& n, const Vec& from, const Vec& S, const Vec& to)
+{
+	return (shade.rim_radius <= 0 || OffAxis(n, S, from, shade.rim_distance) <= shade.rim_radius)
+		&& (shade.front_radius <= 0 || OffAxis(n, S, from, shade.front_distance) <= shade.front_radius)
+		&& (shade.rear_radius <= 0 || OffAxis(n, S, to, -shade.rear_distance) <= shade.rear_radius);
+}
+
+/// Point k of so many that cover the lens evenly: Fermat's spiral.
+Vec LensPoint(const Lens& lens, const Vec& n, int k, int points)
+{
+	const Vec a = n.unitOrthogonal(), b = n.cross(a);
+	const double radius = 0.5 * lens.d * std::sqrt((k + 0.5) / points), angle = k * 2.399963229728653;
+	return radius * (std::cos(angle) * a + std::sin(angle) * b);
+}
+
+/// Where P's light from S meets the sensor, by Gauss's equation along the lens's own axis.
+Vec OnSensor(const Lens& lens, const Vec& n, const Vec& P, const Vec& S)
+{
+	const double depth = P.dot(n);
+	const Vec image = P / (1 - depth / lens.f);
+	return S + (-lens.w - S.z()) / (image.z() - S.z()) * (image - S);
+}
+
+/// How far the middle of what the rims let through moves P's picture, px, v downwards.
+Eigen::Vector2d ShiftOf(const Lens& lens, const Shade& shade, const Vec& P)
+{
+	const Vec n = Normal(lens), chief = OnSensor(lens, n, P, Vec::Zero());
+	Vec sum = Vec::Zero();
+	const int points = 2000;   // their middle is right to some 0.001 of the radius
+	int open = 0;
+	for (int k = 0; k < points; ++k)
+	{
+		const Vec S = LensPoint(lens, n, k, points), hit = OnSensor(lens, n, P, S);
+		if (!Passes(shade, n, P, S, hit))
+			continue;
+		sum += hit - chief;
+		++open;
+	}
+	return open ? Eigen::Vector2d(-sum.x(), sum.y()) / (open * PITCH) : Eigen::Vector2d(0, 0);   // the picture is upright
+}
+
+void MoveEdges(const Lens& lens, const Shade& shade, const tiltcal::Board& board, const tiltcal::Pose& pose, std::mt19937& random, tiltcal::Photo& photo)
+{
+	std::normal_distribution<double> normal(0, 0.03);
+	for (tiltcal::Edge& e : photo.edges)
+	{
+		const tiltcal::Vec3<double> P = tiltcal::CameraFromBoard(pose.data(), board.X(e.board_column), board.Y(e.board_row));
+		const double off = ShiftOf(lens, shade, { P.x, P.y, P.z }).dot(Eigen::Vector2d(e.nx, e.ny)) + normal(random);
+		e.x += off * e.nx;
+		e.y += off * e.ny;
+		e.offset_sigma = 0.03;
+	}
 }
 
 }
@@ -45,17 +95,13 @@ double LightLeft(const Lens& lens, const Shade& shade, double u, double v)
 		const double sensor = 1 / direction.norm(), on_axis = n.z();
 		light = direction.dot(n) * sensor * std::pow(sensor / on_axis, 3);
 	}
-	if (shade.rim_radius <= 0)
-		return light;
-	const Vec a = n.unitOrthogonal(), b = n.cross(a);
-	// Fermat's spiral covers the disc evenly: 8000 points count an area to some 0.0005.
+	// The ray's point on the plane of focus, along v; at infinity far away. 8000 points count an area to some 0.0005.
+	const double inverse_depth = 1 / lens.f - 1 / (lens.w * direction.dot(n));   // v.z is 1
+	const Vec focus = direction / direction.dot(n) / (std::abs(inverse_depth) > 1e-9 ? inverse_depth : 1e-9), sensor = -lens.w * direction;
 	const int points = 8000;
 	int open = 0;
 	for (int k = 0; k < points; ++k)
-	{
-		const double radius = 0.5 * lens.d * std::sqrt((k + 0.5) / points), angle = k * 2.399963229728653;
-		open += Passes(lens, shade, n, direction, radius * (std::cos(angle) * a + std::sin(angle) * b));
-	}
+		open += Passes(shade, n, focus, LensPoint(lens, n, k, points), sensor);
 	return light * open / points;
 }
 
@@ -65,12 +111,15 @@ tiltcal::Calibration Shaded(const std::vector<Lens>& lenses, const Shade& shade,
 	std::normal_distribution<double> normal(0, 1);
 	tiltcal::Calibration c;
 	std::vector<tiltcal::State> states;
+	const std::vector<tiltcal::Pose> poses = PosesOfPhotographs(photos);
+	std::mt19937 edge_random(seed + 1000);
 	for (size_t s = 0; s < lenses.size(); ++s)
 		states.push_back(Photograph("state" + std::to_string(s), lenses[s], {}, photos));
 	c.task = MakeTask(states);
 	for (size_t s = 0; s < lenses.size(); ++s)
 		for (tiltcal::Photo& photo : c.task.states[s].photos)
 		{
+			MoveEdges(lenses[s], shade, c.task.board, poses[size_t(&photo - c.task.states[s].photos.data())], edge_random, photo);
 			const double exposure = 0.7 + 0.2 * normal(random) / 3;
 			for (int j = 0; j + 1 < c.task.board.InnerRows(); ++j)
 				for (int i = j % 2; i + 1 < c.task.board.InnerColumns(); i += 2)
@@ -90,7 +139,9 @@ tiltcal::Calibration Shaded(const std::vector<Lens>& lenses, const Shade& shade,
 					photo.white.push_back(patch);
 				}
 		}
+	c.geometry.poses.assign(lenses.size(), poses);
 	c.geometry.w_px = lenses[0].w / PITCH;
+	c.solution.w_mm = { lenses[0].w, 0 };
 	c.geometry.shared_poses = true;
 	c.solution.model = "plane";
 	c.solution.aperture_diameter = { lenses[0].d, 0 };

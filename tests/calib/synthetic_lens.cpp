@@ -99,6 +99,14 @@ Placed Place(double about_x, double about_y, double about_z, double distance)
 	return { R, Vec(0, 0, distance) - R * centre };
 }
 
+std::vector<Placed> Inclined(double shift)
+{
+	return {
+		Place(35, 0, 0, 630 + shift), Place(-36, 3, 2, 600 + shift), Place(0, 36, 0, 640 + shift),
+		Place(2, -38, -4, 650 + shift), Place(25, 25, 5, 620 + shift), Place(-26, -24, -3, 610 + shift)
+	};
+}
+
 tiltcal::Photo Shoot(const Lens& lens, const Placed& pose, const Noise& noise, std::mt19937& random)
 {
 	const tiltcal::Board board = TheBoard();
@@ -156,16 +164,26 @@ double Lens::FocusDistance() const
 
 tiltcal::State Photograph(const std::string& name, const Lens& lens, const Noise& noise, int photos, double shift)
 {
-	const Placed poses[] = {
-		Place(35, 0, 0, 630 + shift), Place(-36, 3, 2, 600 + shift), Place(0, 36, 0, 640 + shift),
-		Place(2, -38, -4, 650 + shift), Place(25, 25, 5, 620 + shift), Place(-26, -24, -3, 610 + shift)
-	};
+	const std::vector<Placed> poses = Inclined(shift);
 	std::mt19937 random(noise.seed);
 	tiltcal::State state;
 	state.name = name;
 	for (int k = 0; k < photos; ++k)
-		state.photos.push_back(Shoot(lens, poses[k], noise, random));
+		state.photos.push_back(Shoot(lens, poses[size_t(k)], noise, random));
 	return state;
+}
+
+std::vector<tiltcal::Pose> PosesOfPhotographs(int photos, double shift)
+{
+	std::vector<tiltcal::Pose> poses;
+	const std::vector<Placed> placed = Inclined(shift);
+	for (int k = 0; k < photos; ++k)
+	{
+		const Eigen::AngleAxis<Real> turn(placed[size_t(k)].R);
+		const Vec r = turn.angle() * turn.axis(), t = placed[size_t(k)].t;
+		poses.push_back({ double(r.x()), double(r.y()), double(r.z()), double(t.x()), double(t.y()), double(t.z()) });
+	}
+	return poses;
 }
 
 tiltcal::State PhotographParallel(const std::string& name, const Lens& lens, double distance)

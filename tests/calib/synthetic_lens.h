@@ -37,6 +37,9 @@ const double PITCH = 0.02;
 /// first `photos` of them, moved along the axis by `shift` mm.
 tiltcal::State Photograph(const std::string& name, const Lens& lens, const Noise& noise, int photos = 6, double shift = 0);
 
+/// Where the first `photos` boards of Photograph stand.
+std::vector<tiltcal::Pose> PosesOfPhotographs(int photos, double shift = 0);
+
 /// A task of the given states; the first is the untilted one.
 tiltcal::Task MakeTask(std::vector<tiltcal::State> states);
 

@@ -20,6 +20,7 @@
 #include "write_json.h"
 
 #include <Eigen/Geometry>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
@@ -306,11 +307,21 @@ namespace
 Calibration Everything(const char* effects)
 {
 	Calibration c = Coloured(Tilted(), RED, BLUE, 0.03, 1);
-	const Calibration shaded = synthetic::Shaded(Tilted(), { true, 15, 33, 0 }, 0.005, 1);
+	const Calibration shaded = synthetic::Shaded(Tilted(), { true, 12.5, 21, 0, 8.8, 13 }, 0.005, 1);
 	c.task.states[0].photos[0].file = "a.png";
 	for (size_t s = 0; s < c.task.states.size(); ++s)
 		for (size_t p = 0; p < c.task.states[s].photos.size(); ++p)
-			c.task.states[s].photos[p].white = shaded.task.states[s].photos[p].white;
+		{
+			Photo& photo = c.task.states[s].photos[p];
+			const Photo& other = shaded.task.states[s].photos[p];
+			photo.white = other.white;
+			for (size_t k = 0; k < photo.edges.size(); ++k)
+			{
+				photo.edges[k].x = other.edges[k].x;
+				photo.edges[k].y = other.edges[k].y;
+				photo.edges[k].offset_sigma = other.edges[k].offset_sigma;
+			}
+		}
 	c.task.blades = { 8, 10, 0.25 };
 	return Calibrate(c.task, "plane", Poses::SHARED, Refinement::NONE, ParseEffects(effects));
 }
@@ -321,7 +332,7 @@ TEST(Effects, ReachTheIncAndThePoseThroughTheJson)
 {
 	const Calibration c = Everything("vignetting_natural,vignetting_optical,chromatic_lateral,chromatic_axial,blades");
 	const std::string inc = CameraInc(c, 1);
-	for (const char* const words : { "\t\tvignetting natural\n", "\t\tvignetting optical TiltCal_state1_Rim_Radius, TiltCal_state1_Rim_Distance\n", "chromatic lateral TiltCal_state1_Lateral_Red, TiltCal_state1_Lateral_Blue axial ",
+	for (const char* const words : { "\t\tvignetting natural\n", "\t\tvignetting optical TiltCal_state1_Rim_Radius, TiltCal_state1_Rim_Distance, TiltCal_state1_Rim2_Radius, TiltCal_state1_Rim2_Distance\n", "chromatic lateral TiltCal_state1_Lateral_Red, TiltCal_state1_Lateral_Blue axial ",
 		"\t\tblades 8 rotation 10 curvature 0.25\n", "of the circle through the blades' corners" })
 		EXPECT_THAT(inc, HasSubstr(words));
 	for (const char* const words : { "distortion", "field_curvature" })
@@ -331,9 +342,18 @@ TEST(Effects, ReachTheIncAndThePoseThroughTheJson)
 	WriteText(file, CalibrationJson(c));
 	const StateCamera camera = ReadStateCamera(file, "state1");
 	EXPECT_TRUE(camera.natural_vignetting);
-	ASSERT_TRUE(camera.rim_mm && camera.lateral && camera.axial_per_mm);
-	EXPECT_EQ((*camera.rim_mm)[0], FalloffOf(c).radius_mm.value);
-	EXPECT_EQ((*camera.rim_mm)[1], FalloffOf(c).distance_mm.value);
+	ASSERT_TRUE(camera.lateral && camera.axial_per_mm);
+	ASSERT_EQ(camera.rims_mm.size(), 2u);
+	EXPECT_EQ(camera.rims_mm[0][0], FalloffOf(c).radius_mm.value);
+	EXPECT_EQ(camera.rims_mm[0][1], FalloffOf(c).distance_mm.value);
+	EXPECT_EQ(camera.rims_mm[1][0], FalloffOf(c).rims[1].radius_mm.value);
+	EXPECT_EQ(camera.rims_mm[1][1], FalloffOf(c).rims[1].distance_mm.value);
+	EXPECT_LT(camera.rims_mm[1][1], 0);
+	// Files of earlier versions know one rim.
+	std::string old = CalibrationJson(c);
+	old.replace(old.find("\"rims\""), 6, "\"else\"");
+	WriteText(file, old);
+	EXPECT_EQ(ReadStateCamera(file, "state1").rims_mm, decltype(camera.rims_mm)(1, camera.rims_mm[0]));
 	EXPECT_EQ((*camera.lateral)[0], c.chromatic.lateral[0].value);
 	EXPECT_EQ((*camera.axial_per_mm)[1], c.chromatic.axial_per_mm[1].value);
 	EXPECT_EQ(camera.blades.count, 8);
@@ -341,6 +361,7 @@ TEST(Effects, ReachTheIncAndThePoseThroughTheJson)
 	const std::string block = PoseInc(camera, CameraPose(), 10);   // a scene unit of 10 mm
 	EXPECT_THAT(block, HasSubstr("vignetting natural\n"));
 	EXPECT_NEAR(std::atof(block.substr(block.find("vignetting optical ") + 19).c_str()), FalloffOf(c).radius_mm.value / 10, 1e-6);
+	EXPECT_THAT(block, HasSubstr(fmt::format(", {:.10g}, {:.10g}\n", camera.rims_mm[1][0] / 10, camera.rims_mm[1][1] / 10)));
 	EXPECT_NEAR(std::atof(block.substr(block.find(" axial ") + 7).c_str()), c.chromatic.axial_per_mm[0].value * 10, 1e-9);
 	EXPECT_THAT(block, HasSubstr("blades 8 rotation 10 curvature 0.25\n"));
 }
@@ -354,6 +375,6 @@ TEST(Effects, NoneLeavesABareLens)
 	const std::string file = testing::TempDir() + "none-calibration.json";
 	WriteText(file, CalibrationJson(c));
 	const StateCamera camera = ReadStateCamera(file, "");
-	EXPECT_FALSE(camera.natural_vignetting || camera.rim_mm || camera.lateral || camera.axial_per_mm || camera.blades.count);
+	EXPECT_FALSE(camera.natural_vignetting || !camera.rims_mm.empty() || camera.lateral || camera.axial_per_mm || camera.blades.count);
 	EXPECT_EQ(camera.aperture_diameter_mm, c.solution.aperture_diameter.value);
 }
