@@ -3,7 +3,14 @@
 # picture, are compared with the oracle (oracle_cases.cpp).
 . "$(dirname "$0")/common.sh"
 
-# refused NAME BLOCK OUTSIDE TEXT...: a parse error that names the scene, line 3 of it, and says every TEXT.
+# refused NAME BLOCK OUTSIDE TEXT...: a parse error that names the scene, line 3 of it, where the camera ends, and says every TEXT.
+# misread: the same for what is wrong by itself, which is said at once, on line 2.
+where='line 3: Parse Error: tilt_lens:'
+misread() {
+	where='line 2: Parse Error:'
+	refused "$@"
+	where='line 3: Parse Error: tilt_lens:'
+}
 refused() {
 	name=$1 block=$2 outside=$3
 	shift 3
@@ -12,7 +19,7 @@ refused() {
 	povray_to "$ours" "$name.exr" "$name.pov" && { fail "$name is accepted"; return; }
 	# The console breaks lines; one space each makes the text searchable.
 	said=$(sed -n '/Error:/,$p' "$name.exr.log" | tr -s '\n ' ' ')
-	for text in "File '$name.pov' line 3: Parse Error: tilt_lens:" "$@"; do
+	for text in "File '$name.pov' $where" "$@"; do
 		case $said in
 			*"$text"*) ;;
 			*) fail "$name does not say '$text' but: $said" ;;
@@ -42,9 +49,9 @@ refusals)
 	refused blades_bent "blades 5 rotation 10 curvature 1.5" "$at_origin" "curvature of blades must lie between 0 (straight) and 1 (a circle), but is 1.5"
 	refused rim_closed "vignetting natural optical 10, 3, 0, -1" "$at_origin" "a rim of vignetting optical must have a radius greater than 0 and a finite distance before the lens, but has 0 and -1"
 	refused rim_beyond "vignetting natural optical 10, -3" "$at_origin" "lies 3 behind the lens, beyond the sensor, which is 1.5 behind it"
-	refused rims_many "vignetting optical 1, 1, 1, 1, 1, 1, 1, 1, 1, 1" "$at_origin" "vignetting optical takes at most 4 rims"
-	refused rims_twice "vignetting optical 1, 1 optical 1, 2" "$at_origin" "give another rim behind a comma"
-	refused rim_alone "vignetting optical 1, 1, 2" "$at_origin" "Expected 'numeric expression'"
+	misread rims_many "vignetting optical 1, 1, 1, 1, 1, 1, 1, 1, 1, 1" "$at_origin" "vignetting optical takes at most 4 rims"
+	misread rims_twice "vignetting optical 1, 1 optical 1, 2" "$at_origin" "give another rim behind a comma"
+	misread rim_alone "vignetting optical 1, 1, 2" "$at_origin" "Expected 'numeric expression'"
 	refused colours "chromatic lateral 0.7, 0" "$at_origin" "chromatic lateral must lie between -0.5 and 0.5"
 	refused no_pupil "pupil_magnification 0" "$at_origin" "pupil_magnification must lie between 0.01 and 100"
 	refused black_bokeh "focal_distance 9" "$at_origin bokeh { pigment { rgb 0 } }" "the bokeh pigment is black all over the lens"

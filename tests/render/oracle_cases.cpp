@@ -209,6 +209,7 @@ void AddEffects(std::vector<Camera>& cameras)
 	rims.rear_radius = 0.34;
 	rims.rear_distance = 0.7;
 	rims.rim_radius = 0.3;
+	rims.cell_limit = 0.0012; // two hard edges in 512 frames: 0.0010 (one, in cat-eye: 0.00096)
 	rims.effects = "vignetting optical 0.3, 0.7, 0.34, -0.7";
 	cameras.push_back(rims);
 
