@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// What the difference between photograph and render is made of.
+
+#ifndef PAPER_ABLATION_H
+#define PAPER_ABLATION_H
+
+#include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
+
+namespace paper
+{
+
+/// One state's pictures, luminance in linear light, CV_32FC1 of one size.
+struct StatePictures
+{
+	cv::Mat photograph;
+	cv::Mat render;             ///< through the calibrated camera
+	cv::Mat render_seed1;       ///< the same with another seed
+	cv::Mat render_as_photo;    ///< render through sensor and file format, with the gain of the photograph
+	cv::Mat closed;             ///< through the camera that was calibrated from boards that the calibrated camera photographed; seed 1
+};
+
+/// The brightness of the photograph, of the render brought to it by one gain, and of the render's own photograph.
+struct MatchedPictures
+{
+	cv::Mat photograph, render, render_as_photo;
+};
+
+/// For each of red, green and picture: `measured`, the mean absolute and RMS differences, and `squares`, into which the square of
+/// the RMS of `measured.gain` is divided:
+///
+///     noise         render_as_photo - render
+///     sampling      (render - render_seed1) / sqrt 2
+///     calibration   square of (render - closed) less that of (render - render_seed1): the grain of two seeds has no part in common
+///     model         what is left of the whole
+///       brightness, displacement, sharpness   by how much the whole falls when a smooth shading, a smooth displacement, a smooth
+///                   change of blur are fitted, less by how much the same fits make (render - closed) fall
+///       rest        what is left of the model's error: the shape of the blur, and outliers
+///
+/// Of these noise, sampling and calibration are measured without the photograph; the model's error holds their common parts with
+/// everything else, which are zero in the mean. Single squares may come out negative, by chance, where they are small.
+nlohmann::ordered_json Ablation(const StatePictures& pictures, MatchedPictures& matched);
+
+}
+
+#endif
