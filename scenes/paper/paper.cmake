@@ -60,7 +60,7 @@ function(run log)
 	endif()
 endfunction()
 
-# calibrate(OUT PHOTOGRAPHS SUFFIX OPTIONS...): of the 18 photographs of the board in a folder.
+# calibrate(OUT PHOTOGRAPHS SUFFIX OPTIONS...): of the photographs of the board in a folder.
 function(calibrate out photographs suffix)
 	has("${out}/calibration.json" there)
 	if(NOT there)
@@ -183,16 +183,19 @@ foreach(count IN LISTS CURVE)
 	endforeach()
 endforeach()
 
-step("closed loop: the calibrated camera photographs the board, 18 times with ${BOARD_SAMPLES} samples a pixel")
+step("closed loop: the calibrated camera photographs the board in every pose, ${BOARD_SAMPLES} samples a pixel")
 set(closed "${OUT}/closed")
 set(number 0)
 foreach(state IN LISTS STATES)
-	foreach(photo RANGE 1 6)
+	file(GLOB board_photos "${photos}/target/${state}-*.jpg")
+	list(LENGTH board_photos count)
+	foreach(photo RANGE 1 ${count})
 		has("${closed}/photos/${state}-${photo}.${suffix}" there)
 		if(NOT there)
-			math(EXPR seed "100 + 10 * ${number} + ${photo}") # no two pictures with the same grain
+			math(EXPR seed "1000 * (${number} + 1) + ${photo}") # no two pictures with the same grain
 			render("${SCENES}/board/board.pov" "${calibration}" ${number} ${BOARD_SAMPLES} ${seed} "${closed}/board.exr" Declare=Photo=${photo})
-			photograph("${closed}/board.exr" "${photos}/target/${state}-${photo}.jpg" ${gain_${state}} ${seed} "${closed}/photos/${state}-${photo}.${suffix}")
+			list(GET board_photos 0 like)
+			photograph("${closed}/board.exr" "${like}" ${gain_${state}} ${seed} "${closed}/photos/${state}-${photo}.${suffix}")
 			file(REMOVE "${closed}/board.exr")
 		endif()
 	endforeach()

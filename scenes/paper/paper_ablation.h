@@ -32,14 +32,15 @@ struct MatchedPictures
 ///
 ///     noise         render_as_photo - render
 ///     sampling      (render - render_seed1) / sqrt 2
-///     calibration   square of (render - closed) less that of (render - render_seed1): the grain of two seeds has no part in common
+///     calibration   square of (render - closed) less twice that of sampling: the grain of two seeds has no part in common
 ///     model         what is left of the whole
-///       brightness, displacement, sharpness   by how much the whole falls when a smooth shading, a smooth displacement, a smooth
-///                   change of blur are fitted, less by how much the same fits make (render - closed) fall
-///       rest        what is left of the model's error: the shape of the blur, and outliers
+///       brightness, displacement, sharpness   by how much this falls when a smooth shading, then a smooth displacement, then a smooth
+///                   change of blur are fitted to the photograph. The same is fitted in the closed loop, and grain is taken through
+///                   the same steps, so that neither calibration's error nor smoothed grain counts here
+///       rest        what is left of it then: the shape of the blur, and outliers
 ///
-/// Of these noise, sampling and calibration are measured without the photograph; the model's error holds their common parts with
-/// everything else, which are zero in the mean. Single squares may come out negative, by chance, where they are small.
+/// Noise, sampling and calibration are measured without the photograph; what they have in common with the model's error is zero in
+/// the mean. Small squares may come out negative, by chance.
 nlohmann::ordered_json Ablation(const StatePictures& pictures, MatchedPictures& matched);
 
 }

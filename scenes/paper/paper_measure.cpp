@@ -41,7 +41,7 @@ double NumberIn(const std::string& log, const std::regex& pattern, const std::st
 
 double CpuSeconds(const std::string& file)
 {
-	static const std::regex pattern("using [0-9]+ thread.{0,3} with ([0-9.]+) CPU-seconds total");
+	static const std::regex pattern("Trace Time:[^\\n]*\\n *using [0-9]+ thread.{0,3} with ([0-9.]+) CPU-seconds total");
 	return NumberIn(Log(file), pattern, file);
 }
 
@@ -108,7 +108,7 @@ Json Conditions(const Run& run)
 	const std::string photos = std::filesystem::weakly_canonical(run.photos).string();
 	return { { "photos", photos }, { "format", run.suffix }, { "samples", run.samples }, { "board_samples", run.board_samples },
 		{ "effect_samples", run.effect_samples }, { "tiltcal", TILTCAL_VERSION }, { "povray", version[1].str() },
-		{ "threads", NumberIn(log, std::regex("using ([0-9]+) thread"), file) }, { "processor", Processor() },
+		{ "threads", NumberIn(log, std::regex("Trace Time:[^\\n]*\\n *using ([0-9]+) thread"), file) }, { "processor", Processor() },
 		{ "date", fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr))) } };
 }
 
@@ -118,6 +118,11 @@ void Measure(const Run& run)
 {
 	Json results;
 	results["conditions"] = Conditions(run);
+	size_t boards = 0;
+	const Json calibration = ReadJson(run.out + "/demo/calibration/calibration.json");
+	for (const Json& state : calibration.at("states"))
+		boards += state.at("photos").size();
+	results["conditions"]["board_photographs"] = boards;
 	results["tilt"] = TiltTable(run);
 	results["lens"] = LensTable(run);
 	results["brightness"] = BrightnessTable(run);

@@ -39,6 +39,7 @@ td { font-variant-numeric: tabular-nums } th { font-weight: 600; background: #f6
 dt { font-weight: 600; margin-top: 8px } dd { margin-left: 20px } small { color: #555 } figure { margin: 0 } figcaption { font-size: 13px; color: #444 }
 .lead { font-size: 17px } .note { border-left: 6px solid #f9a825; background: #fff8e1; padding: 8px 14px }
 .pair { display: grid; grid-template-columns: 1fr 1fr; gap: 20px; align-items: start } .pair img, .plot { width: 100%; height: auto; display: block }
+.three { display: grid; grid-template-columns: 1fr 1fr 1fr; gap: 16px } .arrows { width: 100%; height: auto; display: block }
 .key span { margin-right: 16px; white-space: nowrap } .bars { width: 100%; height: auto } .bars text { font: 13px "Helvetica Neue", Arial, sans-serif; fill: #222 } .bars text.head { font-weight: 600; font-size: 15px }
 .tabs > input { position: absolute; opacity: 0 } .tabs > label { display: inline-block; padding: 6px 16px; border: 1px solid #bbb; border-radius: 4px 4px 0 0; cursor: pointer; margin-right: 4px }
 .tabs > input:checked + label { background: #1565c0; color: #fff; border-color: #1565c0 } .tabs > input:focus-visible + label { outline: 2px solid #222 } .tabs .pane { display: none }
@@ -210,7 +211,8 @@ void WritePage(const std::string& out)
 		images.push_back(Images(results, out, state));
 	PlotCurve(results, out);
 	const std::string text = std::string(HEAD) + "<h1>A real tilted lens: photograph and render</h1>\n"
-		"<p class=\"lead\">Left of the line a photograph through a tilted 45 mm lens at f/2.8, right of it the same scene rendered through the camera that <code>tiltcal</code> found from 18 photographs of a checkerboard. "
+		"<p class=\"lead\">Left of the line a photograph through a tilted 45 mm lens at f/2.8, right of it the same scene rendered through the camera that <code>tiltcal</code> found from "
+		+ std::to_string(int(results.at("conditions").at("board_photographs"))) + " photographs of a checkerboard. "
 		"The experiment is that of Baba, Nakane and Hiura, <i>Camera Calibration and Rendering of Real Tilted Lens</i>. Drag the line.</p>\n"
 		+ Dividers(images) + Headline(results) + TiltSection(results) + BrightnessSection(results) + Profiles(results, out, images) + DifferenceSection(results, out)
 		+ AblationSection(results, out) + ReproduceSection(results) + SCRIPT + "</body></html>\n";

@@ -122,6 +122,20 @@ std::string FitsTable(const Json& states)
 	return tiltcal::html::Table(rows);
 }
 
+/// The displacement fitted, as arrows 40 times as long, on the picture's outline.
+std::string Arrows(const Json& displacement, const std::string& title)
+{
+	const double times = 40;
+	std::string out = fmt::format("<svg class=\"arrows\" viewBox=\"0 0 1800 1200\" role=\"img\" aria-label=\"displacement, {}\"><rect x=\"2\" y=\"2\" width=\"1796\" height=\"1196\" fill=\"none\" stroke=\"#999\" stroke-width=\"4\"/>\n", title);
+	for (const Json& place : displacement.at("field"))
+	{
+		const double x = place.at(0), y = place.at(1), to_x = x + times * double(place.at(2)), to_y = y + times * double(place.at(3));
+		out += fmt::format("<path d=\"M{:.0f} {:.0f}L{:.1f} {:.1f}\" stroke=\"#2b7bba\" stroke-width=\"8\"/><circle cx=\"{:.0f}\" cy=\"{:.0f}\" r=\"9\" fill=\"#2b7bba\"/>\n", x, y, to_x, to_y, x, y);
+	}
+	return "<figure>" + out + "</svg><figcaption>" + fmt::format("{}: {} px RMS over the edges, mean {} px right, {} px down", title, Number(displacement.at("rms_px"), 2),
+		Number(displacement.at("mean_x_px"), 2), Number(displacement.at("mean_y_px"), 2)) + "</figcaption></figure>\n";
+}
+
 std::string HowSeparated(const Json& results)
 {
 	const Json& states = results.at("states");
@@ -139,7 +153,7 @@ std::string HowSeparated(const Json& results)
 		"<dt>noise of the photograph</dt><dd>The render, times the gain, is given the sensor’s noise (20 000 electrons at full scale, 5 of read noise: <code>camera.json</code>), rounded to 8 bits and "
 		"compressed with the photograph’s own quantisation tables; its difference to the render itself is what the photograph’s file alone does. Legitimate because noise and compression do not know what lens made the picture.</dd>\n"
 		"<dt>sampling noise of the render</dt><dd>Two renders that differ in nothing but the seed; each has half the square of their difference.</dd>\n"
-		"<dt>calibration error</dt><dd>A closed loop: the calibrated camera itself photographs board and boxes (noise, 8 bits, compression), <code>tiltcal</code> calibrates from these 18 pictures as it does from the real ones, "
+		"<dt>calibration error</dt><dd>A closed loop: the calibrated camera itself photographs board and boxes (noise, 8 bits, compression), <code>tiltcal</code> calibrates from these pictures as it does from the photographs, "
 		"and the boxes are rendered through what it finds. Start and result differ by the calibration’s error and by two renders’ sampling noise, which is taken off. Lens and model are the same here, so that no error of the model is in it. "
 		"It is one draw: another one’s noise would give another error of this size.</dd>\n"
 		"<dt>model error</dt><dd>What is left of the squares. The parts add in squares because they have no part in common: noise, grain and the closed loop’s draw are zero in the mean wherever the model is wrong. "
@@ -243,7 +257,11 @@ std::string AblationSection(const Json& results, const std::string& out)
 	for (const char* const state : STATES)
 		text += "<h3>" + Title(state) + "</h3>\n" + PartsTable(states.at(state));
 	text += "<p><small>Levels of 255. Parts without a mean were found by subtraction of squares, which means do not allow. A minus before a root: the square came out below zero, by chance.</small></p>\n";
-	return text + HowSeparated(results) + "<h3>What smooth corrections would bring</h3>\n" + FitsTable(states) + ClosedLoop(results.at("closed_loop")) + Curve(results, out) + Effects(results);
+	std::string arrows = "<p>The smooth displacement, from dots to where the photograph has what the render has at the dot, 40 times as long:</p>\n<div class=\"three\">";
+	for (const char* const state : STATES)
+		arrows += Arrows(states.at(state).at("displacement"), Title(state));
+	arrows += "</div>\n";
+	return text + HowSeparated(results) + "<h3>What smooth corrections would bring</h3>\n" + FitsTable(states) + arrows + ClosedLoop(results.at("closed_loop")) + Curve(results, out) + Effects(results);
 }
 
 }

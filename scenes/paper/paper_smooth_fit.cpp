@@ -77,48 +77,34 @@ Eigen::VectorXd Step(const cv::Mat& residual, const std::vector<cv::Mat>& fields
 	return normal.selfadjointView<Eigen::Lower>().ldlt().solve(right);
 }
 
-/// b at the places that the field says; cubic, so that the interpolation itself hardly blurs.
-cv::Mat Moved(const cv::Mat& b, const Eigen::VectorXd& field)
+cv::Mat Blurred(const cv::Mat& picture)
 {
-	cv::Mat map_x(b.size(), CV_32FC1), map_y(b.size(), CV_32FC1), moved;
-	for (int y = 0; y < b.rows; ++y)
-		for (int x = 0; x < b.cols; ++x)
-		{
-			const Terms terms = TermsAt(x, y, b.size());
-			map_x.at<float>(y, x) = static_cast<float>(x - Value(field, 0, terms));
-			map_y.at<float>(y, x) = static_cast<float>(y - Value(field, TERMS, terms));
-		}
-	cv::remap(b, moved, map_x, map_y, cv::INTER_CUBIC, cv::BORDER_REPLICATE);
-	return moved;
+	cv::Mat blurred;
+	cv::GaussianBlur(picture, blurred, cv::Size(0, 0), 1, 1, cv::BORDER_REPLICATE);
+	return blurred;
 }
 
+/// Where both pictures, smoothed already, have edges.
+cv::Mat Edges(const cv::Mat& a, const cv::Mat& b)
+{
+	cv::Mat along_x, along_y, length_a, length_b;
+	Derivatives(a, along_x, along_y);
+	cv::magnitude(along_x, along_y, length_a);
+	Derivatives(b, along_x, along_y);
+	cv::magnitude(along_x, along_y, length_b);
+	return cv::min(length_a, length_b) > EDGE;
 }
 
-Displacement FitDisplacement(const cv::Mat& a, const cv::Mat& b)
+/// The lengths and the mean of the field over the pixels of `where`.
+void Summarise(Displacement& d, const cv::Mat& where)
 {
-	Displacement d;
-	Eigen::VectorXd field = Eigen::VectorXd::Zero(2 * TERMS);
-	cv::Mat along_x, along_y, length;
-	for (d.rounds = 1; d.rounds <= 20; ++d.rounds)
-	{
-		const cv::Mat moved = Moved(b, field);
-		Derivatives(moved, along_x, along_y);
-		cv::magnitude(along_x, along_y, length);
-		// a(x) = b(x - D - step) = moved - gradient . step
-		const Eigen::VectorXd step = Step(moved - a, { along_x, along_y }, length > EDGE);
-		field += step;
-		// No term exceeds 1 in the picture.
-		if (step.head(TERMS).cwiseAbs().sum() < 0.002 && step.tail(TERMS).cwiseAbs().sum() < 0.002)
-			break;
-	}
-	d.picture = Moved(b, field);
 	double squares = 0, count = 0;
-	for (int y = 0; y < b.rows; ++y)
-		for (int x = 0; x < b.cols; ++x)
-			if (length.at<float>(y, x) > EDGE)
+	for (int y = 0; y < where.rows; ++y)
+		for (int x = 0; x < where.cols; ++x)
+			if (where.at<unsigned char>(y, x))
 			{
-				const Terms terms = TermsAt(x, y, b.size());
-				const double dx = Value(field, 0, terms), dy = Value(field, TERMS, terms);
+				const Terms terms = TermsAt(x, y, where.size());
+				const double dx = Value(d.field, 0, terms), dy = Value(d.field, TERMS, terms);
 				squares += dx * dx + dy * dy;
 				d.mean_x_px += dx;
 				d.mean_y_px += dy;
@@ -128,29 +114,76 @@ Displacement FitDisplacement(const cv::Mat& a, const cv::Mat& b)
 	d.rms_px = std::sqrt(squares / count);
 	d.mean_x_px /= count;
 	d.mean_y_px /= count;
+}
+
+}
+
+std::array<double, 2> DisplacementAt(const Displacement& d, int column, int row, cv::Size size)
+{
+	const Terms terms = TermsAt(column, row, size);
+	return { Value(d.field, 0, terms), Value(d.field, TERMS, terms) };
+}
+
+cv::Mat Move(const cv::Mat& picture, const Displacement& displacement)
+{
+	cv::Mat map_x(picture.size(), CV_32FC1), map_y(picture.size(), CV_32FC1), moved;
+	for (int y = 0; y < picture.rows; ++y)
+		for (int x = 0; x < picture.cols; ++x)
+		{
+			const Terms terms = TermsAt(x, y, picture.size());
+			map_x.at<float>(y, x) = static_cast<float>(x - Value(displacement.field, 0, terms));
+			map_y.at<float>(y, x) = static_cast<float>(y - Value(displacement.field, TERMS, terms));
+		}
+	cv::remap(picture, moved, map_x, map_y, cv::INTER_CUBIC, cv::BORDER_REPLICATE);
+	return moved;
+}
+
+Displacement FitDisplacement(const cv::Mat& a, const cv::Mat& b)
+{
+	const cv::Mat smooth_a = Blurred(a), smooth_b = Blurred(b), where = Edges(smooth_a, smooth_b);
+	Displacement d;
+	d.field = Eigen::VectorXd::Zero(2 * TERMS);
+	cv::Mat along_x, along_y;
+	while (d.rounds < 20)
+	{
+		++d.rounds;
+		const cv::Mat moved = Move(smooth_b, d);
+		Derivatives(moved, along_x, along_y);
+		// a(x) = b(x - D - step) = moved - gradient . step
+		const Eigen::VectorXd step = Step(moved - smooth_a, { along_x, along_y }, where);
+		d.field += step;
+		// No term exceeds 1 in the picture.
+		if (step.head(TERMS).cwiseAbs().sum() < 0.002 && step.tail(TERMS).cwiseAbs().sum() < 0.002)
+			break;
+	}
+	Summarise(d, where);
 	return d;
 }
 
-cv::Mat FitSharpness(const cv::Mat& a, const cv::Mat& b)
+Eigen::VectorXd FitSharpness(const cv::Mat& a, const cv::Mat& b)
 {
-	cv::Mat blurred, along_x, along_y, length;
-	cv::GaussianBlur(b, blurred, cv::Size(0, 0), 1, 1, cv::BORDER_REPLICATE);
-	const cv::Mat change = blurred - b;
-	Derivatives(b, along_x, along_y);
-	cv::magnitude(along_x, along_y, length);
-	const cv::Mat edges = length > EDGE;
+	const cv::Mat smooth = Blurred(b), change = smooth - b, where = Edges(Blurred(a), smooth);
 	Eigen::VectorXd c = Eigen::VectorXd::Zero(TERMS);
-	cv::Mat result = b.clone();
-	for (int round = 0; round < 10; ++round)   // the weights follow the residuals
+	for (int round = 0; round < 20; ++round)   // the weights follow the residuals
 	{
-		const Eigen::VectorXd step = Step(a - result, { change }, edges);
+		const Eigen::VectorXd step = Step(a - ChangeSharpness(b, c), { change }, where);
 		c += step;
-		for (int y = 0; y < b.rows; ++y)
-			for (int x = 0; x < b.cols; ++x)
-				result.at<float>(y, x) = static_cast<float>(b.at<float>(y, x) + Value(c, 0, TermsAt(x, y, b.size())) * change.at<float>(y, x));
 		if (step.cwiseAbs().sum() < 0.002)
 			break;
 	}
+	return c;
+}
+
+cv::Mat ChangeSharpness(const cv::Mat& picture, const Eigen::VectorXd& c)
+{
+	cv::Mat result = Blurred(picture);
+	// Where the polynomial runs out of edges it may run away: nothing beyond the Gaussian itself, or as much taken off.
+	for (int y = 0; y < picture.rows; ++y)
+		for (int x = 0; x < picture.cols; ++x)
+		{
+			const float old = picture.at<float>(y, x);
+			result.at<float>(y, x) = static_cast<float>(old + std::clamp(Value(c, 0, TermsAt(x, y, picture.size())), -1.0, 1.0) * (result.at<float>(y, x) - old));
+		}
 	return result;
 }
 
