@@ -15,6 +15,8 @@
 #include <fmt/format.h>
 #include <opencv2/imgcodecs.hpp>
 
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 
 namespace paper
@@ -180,11 +182,20 @@ std::string DifferenceSection(const Json& results, const std::string& out)
 
 void PlotCurve(const Json& results, const std::string& out)
 {
-	std::string script = "$data << EOD\n";
+	std::string data;
+	double least_x = 1e9, most_x = 0, least_y = 1e9, most_y = 0;
 	for (const Json& point : results.at("curve"))
-		script += fmt::format("{} {} {}\n", double(point.at("cpu_seconds")), double(point.at("rms")), int(point.at("samples")));
-	script += "EOD\nset logscale xy\nset grid lc rgb '#dddddd'\nset xlabel 'CPU seconds for a tenth of the picture'\nset ylabel 'sampling noise, RMS levels of 255'\nunset key\nset offsets graph 0.12, graph 0.25, graph 0.15, graph 0.1\n"
-		"plot $data using 1:2 with linespoints lw 2 pt 7 lc rgb '#1565c0', $data using 1:2:3 with labels offset 2,1\n";
+	{
+		const double x = point.at("cpu_seconds"), y = point.at("rms");
+		data += fmt::format("{} {} {}\n", x, y, int(point.at("samples")));
+		least_x = std::min(least_x, x);
+		most_x = std::max(most_x, x);
+		least_y = std::min(least_y, y);
+		most_y = std::max(most_y, y);
+	}
+	const std::string script = fmt::format("$data << EOD\n{}EOD\nset logscale xy\nset xrange [{}:{}]\nset yrange [{}:{}]\nset xtics add ('0.5' 0.5, '2' 2, '5' 5, '20' 20, '50' 50)\n"
+		"set ytics add ('0.2' 0.2, '0.5' 0.5, '2' 2, '5' 5)\nset grid lc rgb '#dddddd'\nset xlabel 'CPU seconds for a tenth of the picture'\nset ylabel 'sampling noise, RMS levels of 255'\nunset key\n"
+		"plot $data using 1:2 with linespoints lw 2 pt 7 lc rgb '#1565c0', $data using 1:2:3 with labels offset 2,1\n", data, least_x / 1.5, most_x * 2, least_y / 1.5, most_y * 1.8);
 	tiltcal::Plot(out + "/curve.svg", script, 560, 360);
 }
 

@@ -159,7 +159,8 @@ std::string HowSeparated(const Json& results)
 		"<dt>model error</dt><dd>What is left of the squares. The parts add in squares because they have no part in common: noise, grain and the closed loop’s draw are zero in the mean wherever the model is wrong. "
 		"<b>Check</b>: in the closed loop, where the model is right, noise and calibration in squares foretell the RMS difference of its own photograph and render over the picture: " + check + ".</dd>\n"
 		"<dt>smooth brightness, displacement, change of blur</dt><dd>Fitted to the difference one after the other over the whole picture, robustly: the shading of <code>tiltcal profile</code>, a displacement that is a cubic polynomial in x and y, "
-		"and a cubic polynomial times the picture’s change under a Gaussian of 1 px. Each counts with what it takes away, less what it takes away in the closed loop (that is calibration error, and is counted there). "
+		"and a cubic polynomial times the picture’s change under a Gaussian of 1 px. Each counts with what it takes away from the model’s error: the closed loop is fitted in the same way and taken off after every step, so that calibration error is not counted twice, "
+		"and two seeds’ grain is taken through the same steps, so that grain which they smooth is not counted as model. The displacement holds an error of the camera’s place too, if there is one. "
 		"The order matters a little: what two of them could explain is counted with the first.</dd>\n"
 		"<dt>shape of the blur, outliers</dt><dd>The rest: discs that are not evenly bright, coma, a surface of focus that is no paraboloid, rims behind the lens.</dd>\n</dl>\n";
 }
@@ -172,13 +173,13 @@ std::string ClosedLoop(const Json& closed)
 		const double truth = n.at("true"), found = n.at("found"), sigma = n.at("sigma");
 		const bool curvature = n.at("unit") == "_per_mm";
 		const double scale = curvature ? 1e6 : 1;
-		const std::string unit = n.at("unit") == "_deg" ? "°" : curvature ? "10⁻⁶/mm" : "mm";
+		const std::string unit = n.at("unit") == "_deg" ? "°" : curvature ? "× 10⁻⁶/mm" : "mm";
 		const int digits = curvature ? 1 : 4;
 		rows.push_back({ n.at("what"), Number(truth * scale, digits) + (unit == "°" ? "°" : " " + unit), tiltcal::html::WithSigma({ found * scale, sigma * scale }, unit),
 			Number((found - truth) * scale, digits), Number((found - truth) / sigma, 1) });
 	}
 	return "<h3>Table 1 of the closed loop</h3>\n<p>The same calibration where the truth is known in every number, because the pictures were made by this camera model. "
-		"What is wrong here is <code>tiltcal</code>’s measuring and its noise, not the model.</p>\n" + tiltcal::html::Table(rows);
+		"What is wrong here is <code>tiltcal</code>’s measuring and its noise, not the model: an error of many σ is a bias of the measuring, small as it is.</p>\n" + tiltcal::html::Table(rows);
 }
 
 std::string Curve(const Json& results, const std::string& out)
@@ -222,12 +223,15 @@ std::string Pupils(const Json& pupils)
 		if (!pupils.contains(key))
 			return;
 		const Json& e = pupils.at(key);
-		rows.push_back({ title, tiltcal::html::WithSigma({ 1e6 * double(e.at("value")), e.at("sigma").is_null() ? 0 : 1e6 * double(e.at("sigma")) }, "10⁻⁶/mm", 1), "–" });
+		rows.push_back({ title, tiltcal::html::WithSigma({ 1e6 * double(e.at("value")), e.at("sigma").is_null() ? 0 : 1e6 * double(e.at("sigma")) }, "× 10⁻⁶/mm", 1), "–" });
 	};
 	curvature("field_curvature", "field curvature that is rendered");
 	curvature("tangential_curvature", "of edges across the radius (tangential)");
 	curvature("sagittal_curvature", "of edges along the radius (sagittal)");
 	rows.push_back({ "the lens’s own blur, not rendered", WithSigma(pupils.at("psf_floor_px"), "px", 2), "–" });
+	if (prescription.empty())
+		for (std::vector<std::string>& row : rows)
+			row.pop_back();
 	return "<h3>Pupils and curvature</h3>\n<p>A thin lens has one pupil, at the lens, and one bowl of focus. This one has not. The entrance pupil wanders as the lens turns about its pivot, the two pupils differ in size, "
 		"a second rim cuts the light of oblique bundles, and edges of two directions focus on two different bowls, of which the camera renders the mean. "
 		"A pupil that moves and changes with the angle of the ray (pupil aberration) is not modelled beyond this; what is left of it is in the last part of the ablation.</p>\n" + tiltcal::html::Table(rows);
@@ -244,7 +248,7 @@ std::string Effects(const Json& results)
 		rows.push_back(cells);
 	}
 	return "<h3>What a thin lens with w, U, d and a tilt cannot know</h3>\n<p>Table 2 once more with one gain, through cameras that know less; each was calibrated as such, so that what it can it makes up for. "
-		+ fmt::format("{} samples a pixel; the last row is Table 2’s.</p>\n", int(results.at("conditions").at("effect_samples"))) + tiltcal::html::Table(rows) + Pupils(results.at("pupils"));
+		+ fmt::format("{} samples a pixel; the last row’s camera is Table 2’s.</p>\n", int(results.at("conditions").at("effect_samples"))) + tiltcal::html::Table(rows) + Pupils(results.at("pupils"));
 }
 
 }
