@@ -54,6 +54,7 @@ dt { font-weight: 600; margin-top: 8px } dd { margin-left: 20px } small { color:
 .split span { position: absolute; bottom: 8px; padding: 2px 8px; background: #000a; color: #fff; font-size: 13px; pointer-events: none } .split .l { left: 8px } .split .r { right: 8px }
 .lined { position: relative } .lined img { display: block; width: 100%; height: auto } .lined svg { position: absolute; inset: 0; width: 100%; height: 100% }
 .scale { width: 560px; max-width: 100%; height: auto } .scale text { font: 13px "Helvetica Neue", Arial, sans-serif }
+td { white-space: nowrap } @media (max-width: 760px) { .pair, .three { grid-template-columns: 1fr } }
 @media print { .tabs .pane { display: block } h2 { break-before: page } figure, svg { break-inside: avoid } }
 </style></head><body>
 )";
@@ -214,6 +215,14 @@ std::string SvgImage(const std::string& file, const std::string& alt)
 	return fmt::format("<img class=\"plot\" alt=\"{}\" src=\"{}\"/>\n", tiltcal::html::Escape(alt), uri);
 }
 
+/// "45 mm lens at f/2.8"
+static std::string Nominal(const Json& results)
+{
+	const Json& nominal = results.at("lens").at("nominal");
+	const double f = nominal.at("focal_length_mm").at("value"), d = nominal.at("aperture_diameter_mm").at("value");
+	return fmt::format("{:.0f} mm lens at f/{:.1f}", f, f / d);
+}
+
 void WritePage(const std::string& out)
 {
 	const Json results = ReadJson(out + "/results.json");
@@ -222,7 +231,7 @@ void WritePage(const std::string& out)
 		images.push_back(Images(results, out, state));
 	PlotCurve(results, out);
 	const std::string text = std::string(HEAD) + "<h1>A real tilted lens: photograph and render</h1>\n"
-		"<p class=\"lead\">Left of the line a photograph through a tilted 45 mm lens at f/2.8, right of it the same scene rendered through the camera that <code>tiltcal</code> found from "
+		"<p class=\"lead\">Left of the line a photograph through a tilted " + Nominal(results) + ", right of it the same scene rendered through the camera that <code>tiltcal</code> found from "
 		+ std::to_string(int(results.at("conditions").at("board_photographs"))) + " photographs of a checkerboard. "
 		"The experiment is that of Baba, Nakane and Hiura, <i>Camera Calibration and Rendering of Real Tilted Lens</i>. Drag the line.</p>\n"
 		+ Dividers(images) + Headline(results) + TiltSection(results) + BrightnessSection(results) + Profiles(results, out, images) + DifferenceSection(results, out)

@@ -149,8 +149,10 @@ std::string HowSeparated(const Json& results)
 	std::string check;
 	for (const char* const state : STATES)
 		check += fmt::format("{}{} against {} ({})", check.empty() ? "" : ", ", Number(closed(state, "foretold"), 2), Number(closed(state, "measured"), 2), Title(state));
+	const Json& conditions = results.at("conditions");
+	const std::string electrons = Number(conditions.at("full_well_electrons"), 0) + " electrons at full scale, " + Number(conditions.at("read_noise_electrons"), 0) + " of read noise";
 	return "<h3>How each part was separated</h3>\n<dl>\n"
-		"<dt>noise of the photograph</dt><dd>The render, times the gain, is given the sensor’s noise (20 000 electrons at full scale, 5 of read noise: <code>camera.json</code>), rounded to 8 bits and "
+		"<dt>noise of the photograph</dt><dd>The render, times the gain, is given the sensor’s noise (" + electrons + ": <code>camera.json</code>), rounded to 8 bits and "
 		"compressed with the photograph’s own quantisation tables; its difference to the render itself is what the photograph’s file alone does. Legitimate because noise and compression do not know what lens made the picture.</dd>\n"
 		"<dt>sampling noise of the render</dt><dd>Two renders that differ in nothing but the seed; each has half the square of their difference.</dd>\n"
 		"<dt>calibration error</dt><dd>A closed loop: the calibrated camera itself photographs board and boxes (noise, 8 bits, compression), <code>tiltcal</code> calibrates from these pictures as it does from the photographs, "

@@ -84,7 +84,7 @@ std::string TiltSection(const Json& results)
 		}
 		rows.push_back(row);
 	}
-	std::string out = "<h2>Table 1: the tilt of the lens</h2>\n<p>The states’ true tilts are ±5° exactly (<code>camera.json</code>; the lens is traced, so this is known and not measured). "
+	std::string out = "<h2>Table 1: the tilt of the lens</h2>\n<p>The true tilts are those of <code>camera.json</code>: the lens is traced, so that they are known and not measured. "
 		"± is one standard deviation as the method itself gives it: it holds noise, and of the model’s error only what scatters.</p>\n" + tiltcal::html::Table(rows);
 	out += "<p class=\"note\"><b>Not the same lens.</b> The paper photographed with a Canon TS-E 45 mm f/2.8. Ours are photographs through another 45 mm f/2.8 design, traced ray by ray "
 		"through all surfaces of its prescription (<code>scenes/boxes/photos/README.md</code>), with noise, 8 bits and compression. "
