@@ -2,7 +2,7 @@
 # between photograph and render is made of. One page, OUT/report.html; every number in OUT/results.json.
 #
 #   cmake -DTILTCAL= -DPOVRAY= -DEXR2PNG= -DREPORT=<paper_report> -DSCENES=<scenes> -DOUT= [-DPHOTOS=<folder>]
-#         [-DSAMPLES=128] [-DBOARD_SAMPLES=64] [-DEFFECT_SAMPLES=32] [-DCURVE=8,32,128,512] [-DREUSE=1] -P paper.cmake
+#         [-DSAMPLES=128] [-DBOARD_SAMPLES=128] [-DEFFECT_SAMPLES=32] [-DCURVE=8,32,128,512] [-DREUSE=1] -P paper.cmake
 #
 # PHOTOS: a folder with target/ and scene/ (PNG or JPEG) instead of scenes/boxes/photos. REUSE: steps whose result is there are
 # not run again; for whoever works on the page. Any step that fails ends the run. paper_run.h says what OUT receives.
@@ -12,7 +12,7 @@ foreach(name TILTCAL POVRAY EXR2PNG REPORT SCENES OUT)
 		message(FATAL_ERROR "paper.cmake needs -D${name}=...")
 	endif()
 endforeach()
-foreach(pair SAMPLES=128 BOARD_SAMPLES=64 EFFECT_SAMPLES=32 CURVE=8,32,128,512 REUSE=0)
+foreach(pair SAMPLES=128 BOARD_SAMPLES=128 EFFECT_SAMPLES=32 CURVE=8,32,128,512 REUSE=0)
 	string(REGEX MATCH "([^=]*)=(.*)" ignored "${pair}")
 	if(NOT DEFINED ${CMAKE_MATCH_1})
 		set(${CMAKE_MATCH_1} "${CMAKE_MATCH_2}")

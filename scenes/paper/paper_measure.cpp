@@ -14,12 +14,12 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <cmath>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
+#include <future>
 #include <regex>
 #include <sstream>
 
@@ -60,23 +60,30 @@ Json Curve(const Run& run)
 	return curve;
 }
 
+Json OneState(const Run& run, const std::string& state)
+{
+	StatePictures pictures;
+	pictures.photograph = ReadLuminance(run.photos + "/scene/" + state + ".jpg");
+	pictures.render = ReadLuminance(run.out + "/demo/render-" + state + ".exr");
+	pictures.render_seed1 = ReadLuminance(run.out + "/seed1/" + state + ".exr");
+	pictures.render_as_photo = ReadLuminance(run.out + "/noise/" + state + "." + run.suffix);
+	pictures.closed = ReadLuminance(run.out + "/closed/" + state + ".exr");
+	MatchedPictures matched;
+	const Json json = Ablation(pictures, matched);
+	tiltcal::WritePng(run.out + "/difference-" + state + ".png", DifferencePicture(matched.photograph, matched.render));
+	tiltcal::WritePng(run.out + "/noise-" + state + ".png", DifferencePicture(matched.render_as_photo, matched.render));
+	return json;
+}
+
+/// The states one beside the other: nothing is shared but the result.
 Json States(const Run& run)
 {
+	std::vector<std::future<Json>> running;
+	for (const char* const state : STATES)
+		running.push_back(std::async(std::launch::async, [&run, state] { return OneState(run, state); }));
 	Json states;
-	for (const std::string state : STATES)
-	{
-		spdlog::info("the parts of {}", state);
-		StatePictures pictures;
-		pictures.photograph = ReadLuminance(run.photos + "/scene/" + state + ".jpg");
-		pictures.render = ReadLuminance(run.out + "/demo/render-" + state + ".exr");
-		pictures.render_seed1 = ReadLuminance(run.out + "/seed1/" + state + ".exr");
-		pictures.render_as_photo = ReadLuminance(run.out + "/noise/" + state + "." + run.suffix);
-		pictures.closed = ReadLuminance(run.out + "/closed/" + state + ".exr");
-		MatchedPictures matched;
-		states[state] = Ablation(pictures, matched);
-		tiltcal::WritePng(run.out + "/difference-" + state + ".png", DifferencePicture(matched.photograph, matched.render));
-		tiltcal::WritePng(run.out + "/noise-" + state + ".png", DifferencePicture(matched.render_as_photo, matched.render));
-	}
+	for (size_t s = 0; s < running.size(); ++s)
+		states[STATES[s]] = running[s].get();
 	return states;
 }
 

@@ -41,7 +41,7 @@ std::string Said(double x) { return std::to_string(x); }
 
 void CheckTilts(const Json& results)
 {
-	// 0.25 degrees is what the model without field curvature is off by on this lens; nine photographs and 40 edges scatter by 0.03.
+	// 0.25 degrees is what the model without field curvature is off by on this lens; nine photographs and 60 edges scatter by 0.04.
 	for (const Json& method : results.at("tilt").at("methods"))
 		for (const char* const state : { "plus5", "minus5" })
 		{
@@ -68,7 +68,7 @@ void CheckTables(const Json& results)
 	for (const char* const state : STATES)
 		for (const char* const line : { "red", "green" })
 		{
-			// The project's limit for the gain is 5 with 16 samples (boxes.cmake); 4 samples' grain adds 2 to 3.
+			// The project's limit for the gain is 5 with 16 samples and every edge (boxes.cmake); 8 samples' grain and 60 edges add 1 to 2.
 			const double error = results.at("brightness").at(state).at("gain").at(line);
 			Check(error > 0 && error < 8, "Table 2, " + std::string(state) + ", " + line + ": " + Said(error));
 			// tiltcal profile and the ablation measure the same differences, each with its own code; the gain's last digits differ.
@@ -102,10 +102,10 @@ void CheckAblation(const Json& results)
 		const Json &squares = all.at("picture").at("squares"), &measured = all.at("picture").at("measured");
 		const double whole = squares.at("whole");
 		// What is measured without the photograph must leave something to the model, which is wrong by more than a level here, and may not
-		// be below zero beyond chance: a hundredth of the whole.
+		// be below zero beyond chance: a twentieth of the whole, half of which is grain with 8 samples; one draw of it is taken for another.
 		Check(double(squares.at("model")) > 1, std::string(state) + ": the model's error is " + Said(squares.at("model")));
 		for (const char* const part : { "noise", "sampling", "calibration", "brightness", "displacement", "rest" })
-			Check(double(squares.at(part)) > -0.01 * whole, std::string(state) + ", " + part + ": " + Said(squares.at(part)) + " of " + Said(whole));
+			Check(double(squares.at(part)) > -0.05 * whole, std::string(state) + ", " + part + ": " + Said(squares.at(part)) + " of " + Said(whole));
 		// Squares add: foretold from noise and calibration, and measured. They differ by the mean of their product, which falls with the
 		// root of two million pixels; clipped black and white are not symmetrical and leave some hundredths.
 		const double noise = measured.at("noise").at("rms"), closed = measured.at("closed_gain").at("rms"), both = measured.at("closed_photograph").at("rms");
