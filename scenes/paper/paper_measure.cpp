@@ -115,7 +115,8 @@ Json Conditions(const Run& run)
 	std::regex_search(log, version, std::regex("Ray Tracer Version ([^ ]+)"));
 	const std::string photos = std::filesystem::weakly_canonical(run.photos).string();
 	const Sensor sensor = ReadSensor(run.camera);
-	return { { "photos", photos }, { "full_well_electrons", sensor.full_well_electrons }, { "read_noise_electrons", sensor.read_noise_electrons }, { "format", run.suffix }, { "samples", run.samples }, { "board_samples", run.board_samples },
+	return { { "photos", photos }, { "full_well_electrons", sensor.full_well_electrons },
+		{ "read_noise_electrons", sensor.read_noise_electrons }, { "format", run.suffix }, { "samples", run.samples }, { "board_samples", run.board_samples },
 		{ "effect_samples", run.effect_samples }, { "tiltcal", TILTCAL_VERSION }, { "povray", version[1].str() },
 		{ "threads", NumberIn(log, std::regex("Trace Time:[^\\n]*\\n *using ([0-9]+) thread"), file) }, { "processor", Processor() },
 		{ "date", fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr))) } };

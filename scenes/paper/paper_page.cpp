@@ -181,6 +181,14 @@ std::string DifferenceSection(const Json& results, const std::string& out)
 	return text + "<p><small>The page shows the pictures at half their size, where grain averages; the figures are of the full size.</small></p>\n";
 }
 
+/// "45 mm lens at f/2.8"
+std::string Nominal(const Json& results)
+{
+	const Json& nominal = results.at("lens").at("nominal");
+	const double f = nominal.at("focal_length_mm").at("value"), d = nominal.at("aperture_diameter_mm").at("value");
+	return fmt::format("{:.0f} mm lens at f/{:.1f}", f, f / d);
+}
+
 void PlotCurve(const Json& results, const std::string& out)
 {
 	std::string data;
@@ -213,14 +221,6 @@ std::string SvgImage(const std::string& file, const std::string& alt)
 		uri += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
 	}
 	return fmt::format("<img class=\"plot\" alt=\"{}\" src=\"{}\"/>\n", tiltcal::html::Escape(alt), uri);
-}
-
-/// "45 mm lens at f/2.8"
-static std::string Nominal(const Json& results)
-{
-	const Json& nominal = results.at("lens").at("nominal");
-	const double f = nominal.at("focal_length_mm").at("value"), d = nominal.at("aperture_diameter_mm").at("value");
-	return fmt::format("{:.0f} mm lens at f/{:.1f}", f, f / d);
 }
 
 void WritePage(const std::string& out)

@@ -24,7 +24,7 @@ namespace paper
 
 const char* const STATES[] = { "untilted", "plus5", "minus5" };
 
-/// The first and the last but one row that the curve's renders have.
+/// The first row that the curve's renders have, and the one after the last.
 const int CURVE_ROWS[] = { 600, 720 };
 
 struct Run
