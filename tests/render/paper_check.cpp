@@ -101,11 +101,14 @@ void CheckAblation(const Json& results)
 		}
 		const Json &squares = all.at("picture").at("squares"), &measured = all.at("picture").at("measured");
 		const double whole = squares.at("whole");
-		// What is measured without the photograph must leave something to the model, which is wrong by more than a level here, and may not
-		// be below zero beyond chance: a twentieth of the whole, half of which is grain with 8 samples; one draw of it is taken for another.
-		Check(double(squares.at("model")) > 1, std::string(state) + ": the model's error is " + Said(squares.at("model")));
-		for (const char* const part : { "noise", "sampling", "calibration", "brightness", "displacement", "rest" })
-			Check(double(squares.at(part)) > -0.05 * whole, std::string(state) + ", " + part + ": " + Said(squares.at(part)) + " of " + Said(whole));
+		// A photograph through a real lens differs from the render by more than noise and grain: by several levels here.
+		const double beyond = whole - double(squares.at("noise")) - double(squares.at("sampling"));
+		Check(beyond > 1, std::string(state) + ": beyond noise and grain " + Said(beyond));
+		// Nine photographs and 60 edges leave the principal point free by 0.7 px, and the closed loop's draw of it may be larger than the
+		// photographs': the share of the model, and of it that of the displacement, may then be below zero. What is left once both are
+		// displaced may not, beyond chance: a tenth of the whole, half of which is grain with 8 samples (measured: 4 % below).
+		for (const char* const part : { "calibration", "rest" })
+			Check(double(squares.at(part)) > -0.1 * whole, std::string(state) + ", " + part + ": " + Said(squares.at(part)) + " of " + Said(whole));
 		// Squares add: foretold from noise and calibration, and measured. They differ by the mean of their product, which falls with the
 		// root of two million pixels; clipped black and white are not symmetrical and leave some hundredths.
 		const double noise = measured.at("noise").at("rms"), closed = measured.at("closed_gain").at("rms"), both = measured.at("closed_photograph").at("rms");
