@@ -1,0 +1,241 @@
+# The paper's experiment on the photographs of scenes/boxes/photos: Tables 1 and 2, profiles, differences, and what the difference
+# between photograph and render is made of. One page, OUT/report.html; every number in OUT/results.json.
+#
+#   cmake -DTILTCAL= -DPOVRAY= -DEXR2PNG= -DREPORT=<paper_report> -DSCENES=<scenes> -DOUT= [-DPHOTOS=<folder>]
+#         [-DSAMPLES=128] [-DBOARD_SAMPLES=128] [-DEFFECT_SAMPLES=32] [-DCURVE=8,32,128,512] [-DREUSE=1] -P paper.cmake
+#
+# PHOTOS: a folder with target/ and scene/ (PNG or JPEG) instead of scenes/boxes/photos. REUSE: steps whose result is there are
+# not run again; for whoever works on the page. Any step that fails ends the run. paper_run.h says what OUT receives.
+cmake_minimum_required(VERSION 3.25)
+foreach(name TILTCAL POVRAY EXR2PNG REPORT SCENES OUT)
+	if(NOT DEFINED ${name})
+		message(FATAL_ERROR "paper.cmake needs -D${name}=...")
+	endif()
+endforeach()
+foreach(pair SAMPLES=128 BOARD_SAMPLES=128 EFFECT_SAMPLES=32 CURVE=8,32,128,512 REUSE=0)
+	string(REGEX MATCH "([^=]*)=(.*)" ignored "${pair}")
+	if(NOT DEFINED ${CMAKE_MATCH_1})
+		set(${CMAKE_MATCH_1} "${CMAKE_MATCH_2}")
+	endif()
+endforeach()
+string(REPLACE "," ";" CURVE "${CURVE}")
+set(STATES untilted plus5 minus5) # boxes.pov and board.pov number them so
+set(BOARD --board 12x9 --square 25 --pitch 0.02)
+set(SCENE "${SCENES}/boxes")
+file(MAKE_DIRECTORY "${OUT}")
+file(WRITE "${OUT}/steps.txt" "")
+string(TIMESTAMP started "%s" UTC)
+set(step_started "${started}")
+set(step_text "")
+
+# step(TEXT): a line with the seconds so far; what the step before took goes to steps.txt.
+macro(step text)
+	string(TIMESTAMP now "%s" UTC)
+	if(NOT step_text STREQUAL "")
+		math(EXPR seconds "${now} - ${step_started}")
+		file(APPEND "${OUT}/steps.txt" "${seconds} ${step_text}\n")
+	endif()
+	math(EXPR seconds "${now} - ${started}")
+	message("[paper ${seconds} s] ${text}")
+	set(step_started "${now}")
+	set(step_text "${text}")
+endmacro()
+
+# has(FILE RESULT): whether a step may be left out.
+function(has file result)
+	set(${result} 0 PARENT_SCOPE)
+	if(REUSE AND EXISTS "${file}")
+		set(${result} 1 PARENT_SCOPE)
+	endif()
+endfunction()
+
+# run(LOG COMMAND...): the command; what it says goes to LOG.
+function(run log)
+	get_filename_component(folder "${log}" DIRECTORY)
+	file(MAKE_DIRECTORY "${folder}")
+	execute_process(COMMAND ${ARGN} OUTPUT_FILE "${log}" ERROR_FILE "${log}" RESULT_VARIABLE failed)
+	if(failed)
+		file(READ "${log}" text)
+		message(FATAL_ERROR "${text}\n${ARGN}\nfailed (${log})")
+	endif()
+endfunction()
+
+# calibrate(OUT PHOTOGRAPHS SUFFIX OPTIONS...): of the photographs of the board in a folder.
+function(calibrate out photographs suffix)
+	has("${out}/calibration.json" there)
+	if(NOT there)
+		run("${out}/log.txt" "${TILTCAL}" calibrate ${BOARD} ${ARGN} --untilted "${photographs}/untilted-*.${suffix}"
+			--tilted "plus5=${photographs}/plus5-*.${suffix}" --tilted "minus5=${photographs}/minus5-*.${suffix}" --out "${out}")
+	endif()
+endfunction()
+
+# render(SCENE_FILE CALIBRATION STATE_NUMBER SAMPLES SEED PICTURE OPTIONS...): 1800 x 1200, linear, its log beside it.
+# tiltcal's camera files have no switch for the seed: those of CALIBRATION are copied with the word in.
+function(render scene_file calibration number samples seed picture)
+	has("${picture}" there)
+	if(there)
+		return()
+	endif()
+	get_filename_component(scene_folder "${scene_file}" DIRECTORY)
+	set(cameras "${calibration}")
+	if(seed)
+		set(cameras "${OUT}/seeded/${seed}")
+		file(GLOB files "${calibration}/*.inc")
+		foreach(file IN LISTS files)
+			file(READ "${file}" text)
+			string(REPLACE "tilt_lens {" "tilt_lens {\n\t\tseed ${seed}" seeded "${text}")
+			if(seeded STREQUAL text)
+				message(FATAL_ERROR "${file}: no tilt_lens block to put the seed into")
+			endif()
+			get_filename_component(name "${file}" NAME)
+			file(WRITE "${cameras}/${name}" "${seeded}")
+		endforeach()
+	endif()
+	get_filename_component(folder "${picture}" DIRECTORY)
+	run("${picture}.txt" "${POVRAY}" "+I${scene_file}" "+L${scene_folder}" "+L${cameras}" +W1800 +H1200
+		Declare=State=${number} Declare=TiltCal_Blur_Samples=${samples} -D -A +FE "+O${folder}/part.exr" ${ARGN})
+	file(RENAME "${folder}/part.exr" "${picture}")
+endfunction()
+
+# render_boxes: every render of the boxes but demo.cmake's goes through here, as demo.cmake's own do.
+function(render_boxes calibration number samples seed picture)
+	render("${SCENE}/boxes.pov" "${calibration}" ${number} ${samples} ${seed} "${picture}" ${ARGN})
+endfunction()
+
+# compare(PHOTO RENDER FOLDER STATE MATCH): tiltcal profile on the two lines; the numbers in FOLDER/STATE-MATCH.json.
+function(compare photo picture folder state match)
+	run("${folder}/${state}-${match}/log.txt" "${TILTCAL}" profile "${photo}" "${picture}" --line 0,660,1799,660 --line 900,0,900,1199
+		--match ${match} --json "${folder}/${state}-${match}.json" --out "${folder}/${state}-${match}")
+endfunction()
+
+# photograph(RENDER LIKE GAIN SEED RESULT): what the sensor and the file format of LIKE would have made of the render.
+function(photograph picture like gain seed result)
+	has("${result}" there)
+	if(NOT there)
+		get_filename_component(folder "${result}" DIRECTORY)
+		run("${folder}/log.txt" "${REPORT}" photograph "${picture}" --like "${like}" --camera "${SCENES}/boxes/camera.json"
+			--gain ${gain} --seed ${seed} --out "${result}")
+	endif()
+endfunction()
+
+# A folder of the user's photographs becomes that of a copy of the scene; tiltcal tells formats by content, not by suffix.
+set(suffix jpg)
+if(PHOTOS)
+	get_filename_component(PHOTOS "${PHOTOS}" ABSOLUTE)
+	file(REMOVE_RECURSE "${OUT}/scene")
+	file(COPY "${SCENE}/" DESTINATION "${OUT}/scene" PATTERN photos EXCLUDE)
+	set(SCENE "${OUT}/scene")
+	foreach(kind target scene)
+		file(MAKE_DIRECTORY "${SCENE}/photos/${kind}")
+		file(GLOB files "${PHOTOS}/${kind}/*.png" "${PHOTOS}/${kind}/*.jpg")
+		if(files STREQUAL "")
+			message(FATAL_ERROR "PHOTOS=${PHOTOS}: no *.png or *.jpg in its folder ${kind}")
+		endif()
+		foreach(file IN LISTS files)
+			get_filename_component(name "${file}" NAME_WE)
+			get_filename_component(suffix "${file}" LAST_EXT)
+			string(SUBSTRING "${suffix}" 1 -1 suffix)
+			file(CREATE_LINK "${file}" "${SCENE}/photos/${kind}/${name}.jpg" SYMBOLIC)
+		endforeach()
+	endforeach()
+	if(EXISTS "${PHOTOS}/truth.json")
+		file(COPY_FILE "${PHOTOS}/truth.json" "${SCENE}/photos/truth.json")
+	endif()
+endif()
+set(photos "${SCENE}/photos")
+
+step("the demo: calibration, three renders of ${SAMPLES} samples a pixel, profiles")
+has("${OUT}/demo/summary.md" there)
+if(NOT there)
+	execute_process(COMMAND "${CMAKE_COMMAND}" "-DTILTCAL=${TILTCAL}" "-DPOVRAY=${POVRAY}" "-DEXR2PNG=${EXR2PNG}" "-DSCENE=${SCENE}"
+		"-DOUT=${OUT}/demo" -DSAMPLES=${SAMPLES} -P "${SCENES}/boxes/demo.cmake" OUTPUT_FILE "${OUT}/demo.log" COMMAND_ERROR_IS_FATAL ANY)
+endif()
+set(calibration "${OUT}/demo/calibration")
+foreach(state IN LISTS STATES)
+	file(READ "${OUT}/demo/profiles/${state}-gain.json" json)
+	string(JSON gain_${state} GET "${json}" shading coefficients 0)
+endforeach()
+
+step("Table 1: the models paper, rigid and plane, and photometric refinement")
+calibrate("${OUT}/models/paper" "${photos}/target" jpg --model paper --effects none)
+calibrate("${OUT}/models/rigid" "${photos}/target" jpg --model rigid)
+calibrate("${OUT}/models/plane" "${photos}/target" jpg --model plane)
+calibrate("${OUT}/models/photometric" "${photos}/target" jpg --refine photometric)
+
+step("the photographs' own noise: the renders through sensor and file format")
+set(number 0)
+foreach(state IN LISTS STATES)
+	photograph("${OUT}/demo/render-${state}.exr" "${photos}/scene/${state}.jpg" ${gain_${state}} ${number} "${OUT}/noise/${state}.${suffix}")
+	math(EXPR number "${number} + 1")
+endforeach()
+
+step("sampling noise: the renders again with another seed")
+set(number 0)
+foreach(state IN LISTS STATES)
+	render_boxes("${calibration}" ${number} ${SAMPLES} 1 "${OUT}/seed1/${state}.exr")
+	math(EXPR number "${number} + 1")
+endforeach()
+
+step("sampling noise and time over samples: a tenth of the picture plus5, about the red line")
+foreach(count IN LISTS CURVE)
+	foreach(seed 0 1)
+		render_boxes("${calibration}" 1 ${count} ${seed} "${OUT}/curve/${count}-${seed}.exr" +SR601 +ER720)
+	endforeach()
+endforeach()
+
+step("closed loop: the calibrated camera photographs the board in every pose, ${BOARD_SAMPLES} samples a pixel")
+set(closed "${OUT}/closed")
+set(number 0)
+foreach(state IN LISTS STATES)
+	file(GLOB board_photos "${photos}/target/${state}-*.jpg")
+	list(LENGTH board_photos count)
+	foreach(photo RANGE 1 ${count})
+		has("${closed}/photos/${state}-${photo}.${suffix}" there)
+		if(NOT there)
+			math(EXPR seed "1000 * (${number} + 1) + ${photo}") # no two pictures with the same grain
+			render("${SCENES}/board/board.pov" "${calibration}" ${number} ${BOARD_SAMPLES} ${seed} "${closed}/board.exr" Declare=Photo=${photo})
+			list(GET board_photos 0 like)
+			photograph("${closed}/board.exr" "${like}" ${gain_${state}} ${seed} "${closed}/photos/${state}-${photo}.${suffix}")
+			file(REMOVE "${closed}/board.exr")
+		endif()
+	endforeach()
+	math(EXPR number "${number} + 1")
+endforeach()
+
+step("closed loop: calibrating from these")
+calibrate("${closed}/calibration" "${closed}/photos" ${suffix})
+
+# Where demo.cmake finds the camera's place by points of the untilted photograph, the same is to be done here with
+# ${OUT}/noise/untilted.${suffix}, the closed loop's own photograph of the boxes, before they are rendered.
+step("closed loop: the boxes through the camera found")
+set(number 0)
+foreach(state IN LISTS STATES)
+	render_boxes("${closed}/calibration" ${number} ${SAMPLES} 1 "${closed}/${state}.exr")
+	compare("${OUT}/noise/${state}.${suffix}" "${closed}/${state}.exr" "${closed}/profiles" ${state} gain)
+	math(EXPR number "${number} + 1")
+endforeach()
+
+step("what a thin lens cannot know: Table 2 with fewer effects, ${EFFECT_SAMPLES} samples a pixel")
+has("${OUT}/effects/shares.md" there)
+if(NOT there)
+	run("${OUT}/effects/log.txt" "${CMAKE_COMMAND}" "-DTILTCAL=${TILTCAL}" "-DPOVRAY=${POVRAY}" "-DSCENE=${SCENE}" "-DOUT=${OUT}/effects"
+		-DSAMPLES=${EFFECT_SAMPLES} -P "${SCENES}/boxes/effect-shares.cmake")
+endif()
+
+step("the boxes through the camera of the paper's method")
+set(number 0)
+foreach(state IN LISTS STATES)
+	render_boxes("${OUT}/models/paper" ${number} ${EFFECT_SAMPLES} 0 "${OUT}/paper-method/${state}.exr")
+	compare("${photos}/scene/${state}.jpg" "${OUT}/paper-method/${state}.exr" "${OUT}/paper-method" ${state} gain)
+	math(EXPR number "${number} + 1")
+endforeach()
+
+step("the ablation, difference pictures")
+string(REPLACE ";" "," curve "${CURVE}")
+execute_process(COMMAND "${REPORT}" measure --out "${OUT}" --photos "${photos}" --camera "${SCENES}/boxes/camera.json" --suffix ${suffix}
+	--samples ${SAMPLES} --board-samples ${BOARD_SAMPLES} --effect-samples ${EFFECT_SAMPLES} --curve ${curve} COMMAND_ERROR_IS_FATAL ANY)
+step("the page")
+execute_process(COMMAND "${REPORT}" page --out "${OUT}" COMMAND_ERROR_IS_FATAL ANY)
+string(TIMESTAMP now "%s" UTC)
+math(EXPR seconds "${now} - ${started}")
+message("[paper ${seconds} s] done: ${OUT}/report.html")

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// What the difference between photograph and render is made of.
+
+#ifndef PAPER_ABLATION_H
+#define PAPER_ABLATION_H
+
+#include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
+
+namespace paper
+{
+
+/// One state's pictures, luminance in linear light, CV_32FC1 of one size.
+struct StatePictures
+{
+	cv::Mat photograph;
+	cv::Mat render;             ///< through the calibrated camera
+	cv::Mat render_seed1;       ///< the same with another seed
+	cv::Mat render_as_photo;    ///< render through sensor and file format, with the gain of the photograph
+	cv::Mat closed;             ///< through the camera that was calibrated from boards that the calibrated camera photographed; seed 1
+};
+
+/// The brightness of the photograph, of the render brought to it by one gain, and of the render's own photograph.
+struct MatchedPictures
+{
+	cv::Mat photograph, render, render_as_photo;
+};
+
+/// For each of red, green and picture: `measured`, the mean absolute and RMS differences, and `squares`, into which the square of
+/// the RMS of `measured.gain` is divided:
+///
+///     noise         render_as_photo - render
+///     sampling      (render - render_seed1) / sqrt 2
+///     calibration   square of (render - closed) less twice that of sampling: the grain of two seeds has no part in common
+///     model         what is left of the whole
+///       brightness, displacement, sharpness   by how much this falls when a smooth shading, then a smooth displacement, then a smooth
+///                   change of blur are fitted to the photograph. The same is fitted in the closed loop, and grain is taken through
+///                   the same steps, so that neither calibration's error nor smoothed grain counts here
+///       rest        what is left of it then: the shape of the blur, and outliers
+///
+/// Noise, sampling and calibration are measured without the photograph; what they have in common with the model's error is zero in
+/// the mean. Small squares may come out negative, by chance.
+nlohmann::ordered_json Ablation(const StatePictures& pictures, MatchedPictures& matched);
+
+}
+
+#endif
