@@ -23,7 +23,7 @@ set(none_title "none")
 set(distortion_title "distortion")
 set(distortion,field_curvature_title "… and field curvature")
 set(distortion,field_curvature,vignetting_natural_title "… and natural vignetting")
-set(auto_title "… and the second rim: all that is significant")
+set(auto_title "… and rims before and behind the lens: all that is significant")
 
 set(table "| effects | untilted | plus5 | minus5 |\n|---|---|---|---|\n")
 foreach(effects IN LISTS SETS)

@@ -19,7 +19,6 @@ foreach(pair SAMPLES=128 BOARD_SAMPLES=128 EFFECT_SAMPLES=32 CURVE=8,32,128,512 
 	endif()
 endforeach()
 string(REPLACE "," ";" CURVE "${CURVE}")
-set(STATES untilted plus5 minus5) # boxes.pov and board.pov number them so
 set(BOARD --board 12x9 --square 25 --pitch 0.02)
 set(SCENE "${SCENES}/boxes")
 file(MAKE_DIRECTORY "${OUT}")
@@ -97,8 +96,8 @@ function(render scene_file calibration number samples seed picture)
 	file(RENAME "${folder}/part.exr" "${picture}")
 endfunction()
 
-# render_boxes: every render of the boxes but demo.cmake's goes through here, as demo.cmake's own do.
-function(render_boxes calibration number samples seed picture)
+# boxes: every render of the boxes but demo.cmake's goes through here. CALIBRATION holds pose.inc.
+function(boxes calibration number samples seed picture)
 	render("${SCENE}/boxes.pov" "${calibration}" ${number} ${samples} ${seed} "${picture}" ${ARGN})
 endfunction()
 
@@ -143,6 +142,8 @@ if(PHOTOS)
 	endif()
 endif()
 set(photos "${SCENE}/photos")
+set(PHOTOS "${photos}")
+include("${SCENES}/boxes/steps.cmake") # STATES, which boxes.pov and board.pov number so; place_boxes
 
 step("the demo: calibration, three renders of ${SAMPLES} samples a pixel, profiles")
 has("${OUT}/demo/summary.md" there)
@@ -172,14 +173,14 @@ endforeach()
 step("sampling noise: the renders again with another seed")
 set(number 0)
 foreach(state IN LISTS STATES)
-	render_boxes("${calibration}" ${number} ${SAMPLES} 1 "${OUT}/seed1/${state}.exr")
+	boxes("${calibration}" ${number} ${SAMPLES} 1 "${OUT}/seed1/${state}.exr")
 	math(EXPR number "${number} + 1")
 endforeach()
 
 step("sampling noise and time over samples: a tenth of the picture plus5, about the red line")
 foreach(count IN LISTS CURVE)
 	foreach(seed 0 1)
-		render_boxes("${calibration}" 1 ${count} ${seed} "${OUT}/curve/${count}-${seed}.exr" +SR601 +ER720)
+		boxes("${calibration}" 1 ${count} ${seed} "${OUT}/curve/${count}-${seed}.exr" +SR601 +ER720)
 	endforeach()
 endforeach()
 
@@ -205,12 +206,11 @@ endforeach()
 step("closed loop: calibrating from these")
 calibrate("${closed}/calibration" "${closed}/photos" ${suffix})
 
-# Where demo.cmake finds the camera's place by points of the untilted photograph, the same is to be done here with
-# ${OUT}/noise/untilted.${suffix}, the closed loop's own photograph of the boxes, before they are rendered.
-step("closed loop: the boxes through the camera found")
+step("closed loop: the boxes through the camera found, placed by the closed loop's own photograph of them")
+place_boxes("${closed}/calibration" "${OUT}/noise/untilted.${suffix}")
 set(number 0)
 foreach(state IN LISTS STATES)
-	render_boxes("${closed}/calibration" ${number} ${SAMPLES} 1 "${closed}/${state}.exr")
+	boxes("${closed}/calibration" ${number} ${SAMPLES} 1 "${closed}/${state}.exr")
 	compare("${OUT}/noise/${state}.${suffix}" "${closed}/${state}.exr" "${closed}/profiles" ${state} gain)
 	math(EXPR number "${number} + 1")
 endforeach()
@@ -223,9 +223,10 @@ if(NOT there)
 endif()
 
 step("the boxes through the camera of the paper's method")
+place_boxes("${OUT}/models/paper")
 set(number 0)
 foreach(state IN LISTS STATES)
-	render_boxes("${OUT}/models/paper" ${number} ${EFFECT_SAMPLES} 0 "${OUT}/paper-method/${state}.exr")
+	boxes("${OUT}/models/paper" ${number} ${EFFECT_SAMPLES} 0 "${OUT}/paper-method/${state}.exr")
 	compare("${photos}/scene/${state}.jpg" "${OUT}/paper-method/${state}.exr" "${OUT}/paper-method" ${state} gain)
 	math(EXPR number "${number} + 1")
 endforeach()

@@ -218,8 +218,8 @@ std::string Pupils(const Json& pupils)
 	if (pupils.contains("pupil_magnification"))
 		rows.push_back({ "exit pupil over entrance pupil", WithSigma(pupils.at("pupil_magnification"), "", 3),
 			prescription.contains("pupil_magnification") ? Number(prescription.at("pupil_magnification"), 3) : "–" });
-	if (pupils.contains("rim"))
-		rows.push_back({ "second rim: radius; distance before the lens", WithSigma(pupils.at("rim").at("radius"), "mm", 2) + "; " + WithSigma(pupils.at("rim").at("distance"), "mm", 1), "rims on both sides" });
+	for (const Json& rim : pupils.value("rims", Json::array()))
+		rows.push_back({ "a rim that cuts oblique light: radius; distance before the lens", WithSigma(rim.at("radius"), "mm", 2) + "; " + WithSigma(rim.at("distance"), "mm", 1), "rims on both sides" });
 	const auto curvature = [&](const char* key, const char* title)
 	{
 		if (!pupils.contains(key))
@@ -235,7 +235,7 @@ std::string Pupils(const Json& pupils)
 		for (std::vector<std::string>& row : rows)
 			row.pop_back();
 	return "<h3>Pupils and curvature</h3>\n<p>A thin lens has one pupil, at the lens, and one bowl of focus. This one has not. The entrance pupil wanders as the lens turns about its pivot, the two pupils differ in size, "
-		"a second rim cuts the light of oblique bundles, and edges of two directions focus on two different bowls, of which the camera renders the mean. "
+		"rims before and behind the stop cut the light of oblique bundles, and edges of two directions focus on two different bowls, of which the camera renders the mean. "
 		"A pupil that moves and changes with the angle of the ray (pupil aberration) is not modelled beyond this; what is left of it is in the last part of the ablation.</p>\n" + tiltcal::html::Table(rows);
 }
 

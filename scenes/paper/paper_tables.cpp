@@ -137,7 +137,7 @@ Json EffectTable(const Run& run)
 	// The sets of effect-shares.cmake, and how it names them.
 	static const struct { const char *set, *title; } sets[] = { { "none", "no effect: w, d, a plane of focus" }, { "distortion", "distortion" },
 		{ "distortion+field_curvature", "… and field curvature" }, { "distortion+field_curvature+vignetting_natural", "… and natural vignetting" },
-		{ "auto", "… and the second rim: all that is significant" } };
+		{ "auto", "… and rims before and behind the lens: all that is significant" } };
 	Json table = Json::array();
 	const auto add = [&](const std::string& title, const std::string& folder, const std::string& suffix)
 	{
@@ -190,8 +190,8 @@ Json PupilTable(const Run& run)
 		table["pupil_magnification"] = Estimate(tellers.at("geometry_alone"), "pupil_magnification", "");
 	const Json& vignetting = calibration.at("vignetting");
 	if (vignetting.contains("optical"))
-		for (const char* const name : { "radius", "distance" })
-			table["rim"][name] = Estimate(vignetting.at("optical"), name, "_mm");
+		for (const Json& rim : vignetting.at("optical").at("rims"))
+			table["rims"].push_back({ { "radius", Estimate(rim, "radius", "_mm") }, { "distance", Estimate(rim, "distance", "_mm") } });
 	for (const char* const name : { "field_curvature", "tangential_curvature", "sagittal_curvature" })
 		if (calibration.contains(std::string(name) + "_per_mm"))
 			table[name] = Estimate(calibration, name, "_per_mm");
