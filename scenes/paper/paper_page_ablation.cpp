@@ -153,10 +153,10 @@ std::string HowSeparated(const Json& results)
 	const std::string electrons = Number(conditions.at("full_well_electrons"), 0) + " electrons at full scale, " + Number(conditions.at("read_noise_electrons"), 0) + " of read noise";
 	return "<h3>How each part was separated</h3>\n<dl>\n"
 		"<dt>noise of the photograph</dt><dd>The render, times the gain, is given the sensor’s noise (" + electrons + ": <code>camera.json</code>), rounded to 8 bits and "
-		"compressed with the photograph’s own quantisation tables; its difference to the render itself is what the photograph’s file alone does. Legitimate because noise and compression do not know what lens made the picture.</dd>\n"
+		"compressed with the photograph’s own quantisation tables; its difference to the render itself is what the photograph’s file alone does (the mean of two seeds is taken, so that compression finds little grain to take off). Legitimate because noise and compression do not know what lens made the picture.</dd>\n"
 		"<dt>sampling noise of the render</dt><dd>Two renders that differ in nothing but the seed; each has half the square of their difference.</dd>\n"
 		"<dt>calibration error</dt><dd>A closed loop: the calibrated camera itself photographs board and boxes (noise, 8 bits, compression), <code>tiltcal</code> calibrates from these pictures as it does from the photographs, "
-		"and the boxes are rendered through what it finds. Start and result differ by the calibration’s error and by two renders’ sampling noise, which is taken off. Lens and model are the same here, so that no error of the model is in it. "
+		"and the boxes are rendered through what it finds. Start and result differ by the calibration’s error and by the renders’ sampling noise, which is taken off. Lens and model are the same here, so that no error of the model is in it. "
 		"It is one draw: another one’s noise would give another error of this size.</dd>\n"
 		"<dt>model error</dt><dd>What is left of the squares. The parts add in squares because they have no part in common: noise, grain and the closed loop’s draw are zero in the mean wherever the model is wrong. "
 		"<b>Check</b>: in the closed loop, where the model is right, noise and calibration in squares foretell the RMS difference of its own photograph and render over the picture: " + check + ".</dd>\n"
