@@ -2,7 +2,7 @@
 # between photograph and render is made of. One page, OUT/report.html; every number in OUT/results.json.
 #
 #   cmake -DTILTCAL= -DPOVRAY= -DEXR2PNG= -DREPORT=<paper_report> -DSCENES=<scenes> -DOUT= [-DPHOTOS=<folder>]
-#         [-DSAMPLES=128] [-DBOARD_SAMPLES=128] [-DEFFECT_SAMPLES=32] [-DCURVE=8,32,128,512] [-DREUSE=1] -P paper.cmake
+#         [-DSAMPLES=128] [-DBOARD_SAMPLES=64] [-DEFFECT_SAMPLES=32] [-DCURVE=8,32,128,512] [-DREUSE=1] -P paper.cmake
 #
 # PHOTOS: a folder with target/ and scene/ (PNG or JPEG) instead of scenes/boxes/photos. REUSE: steps whose result is there are
 # not run again; for whoever works on the page. Any step that fails ends the run. paper_run.h says what OUT receives.
@@ -12,7 +12,7 @@ foreach(name TILTCAL POVRAY EXR2PNG REPORT SCENES OUT)
 		message(FATAL_ERROR "paper.cmake needs -D${name}=...")
 	endif()
 endforeach()
-foreach(pair SAMPLES=128 BOARD_SAMPLES=128 EFFECT_SAMPLES=32 CURVE=8,32,128,512 REUSE=0)
+foreach(pair SAMPLES=128 BOARD_SAMPLES=64 EFFECT_SAMPLES=32 CURVE=8,32,128,512 REUSE=0)
 	string(REGEX MATCH "([^=]*)=(.*)" ignored "${pair}")
 	if(NOT DEFINED ${CMAKE_MATCH_1})
 		set(${CMAKE_MATCH_1} "${CMAKE_MATCH_2}")
@@ -107,12 +107,12 @@ function(compare photo picture folder state match)
 		--match ${match} --json "${folder}/${state}-${match}.json" --out "${folder}/${state}-${match}")
 endfunction()
 
-# photograph(RENDER LIKE GAIN SEED RESULT): what the sensor and the file format of LIKE would have made of the render.
-function(photograph picture like gain seed result)
+# photograph(RENDERS LIKE GAIN SEED RESULT): what the sensor and the file format of LIKE would have made of the render, or of the mean of several.
+function(photograph pictures like gain seed result)
 	has("${result}" there)
 	if(NOT there)
 		get_filename_component(folder "${result}" DIRECTORY)
-		run("${folder}/log.txt" "${REPORT}" photograph "${picture}" --like "${like}" --camera "${SCENES}/boxes/camera.json"
+		run("${folder}/log.txt" "${REPORT}" photograph ${pictures} --like "${like}" --camera "${SCENES}/boxes/camera.json"
 			--gain ${gain} --seed ${seed} --out "${result}")
 	endif()
 endfunction()
@@ -163,17 +163,18 @@ calibrate("${OUT}/models/rigid" "${photos}/target" jpg --model rigid)
 calibrate("${OUT}/models/plane" "${photos}/target" jpg --model plane)
 calibrate("${OUT}/models/photometric" "${photos}/target" jpg --refine photometric)
 
-step("the photographs' own noise: the renders through sensor and file format")
-set(number 0)
-foreach(state IN LISTS STATES)
-	photograph("${OUT}/demo/render-${state}.exr" "${photos}/scene/${state}.jpg" ${gain_${state}} ${number} "${OUT}/noise/${state}.${suffix}")
-	math(EXPR number "${number} + 1")
-endforeach()
-
 step("sampling noise: the renders again with another seed")
 set(number 0)
 foreach(state IN LISTS STATES)
 	boxes("${calibration}" ${number} ${SAMPLES} 1 "${OUT}/seed1/${state}.exr")
+	math(EXPR number "${number} + 1")
+endforeach()
+
+# Of the mean of both seeds: compression takes some of a render's grain off, which a photograph has not got.
+step("the photographs' own noise: the renders through sensor and file format")
+set(number 0)
+foreach(state IN LISTS STATES)
+	photograph("${OUT}/demo/render-${state}.exr;${OUT}/seed1/${state}.exr" "${photos}/scene/${state}.jpg" ${gain_${state}} ${number} "${OUT}/noise/${state}.${suffix}")
 	math(EXPR number "${number} + 1")
 endforeach()
 
@@ -210,7 +211,7 @@ step("closed loop: the boxes through the camera found, placed by the closed loop
 place_boxes("${closed}/calibration" "${OUT}/noise/untilted.${suffix}")
 set(number 0)
 foreach(state IN LISTS STATES)
-	boxes("${closed}/calibration" ${number} ${SAMPLES} 1 "${closed}/${state}.exr")
+	boxes("${closed}/calibration" ${number} ${SAMPLES} 2 "${closed}/${state}.exr")
 	compare("${OUT}/noise/${state}.${suffix}" "${closed}/${state}.exr" "${closed}/profiles" ${state} gain)
 	math(EXPR number "${number} + 1")
 endforeach()

@@ -92,7 +92,7 @@ double Square(const Error& e) { return e.rms * e.rms; }
 struct Parts
 {
 	StageErrors whole, whole_grain;     ///< photograph and render; grain: of two seeds
-	StageErrors closed, closed_grain;   ///< render and the closed loop's
+	StageErrors closed, closed_grain;   ///< mean of two seeds' renders and the closed loop's
 	Errors noise, closed_photograph;
 };
 
@@ -114,7 +114,7 @@ Json OneArea(const Parts& p, Error Errors::*area)
 	std::array<double, STEP_COUNT> calibration{}, model{};
 	for (size_t k = 0; k < STEP_COUNT; ++k)
 	{
-		calibration[k] = square(p.closed[k]) - sampling - square(p.closed_grain[k]) / 2;
+		calibration[k] = square(p.closed[k]) - sampling / 2 - square(p.closed_grain[k]) / 2;   // the mean of two seeds has half the grain
 		model[k] = square(p.whole[k]) - noise - square(p.whole_grain[k]) / 2 - calibration[k];
 	}
 	json["squares"] = { { "whole", square(p.whole[0]) }, { "noise", noise }, { "sampling", sampling }, { "calibration", calibration[0] }, { "model", model[0] },
@@ -130,22 +130,22 @@ Json Ablation(const StatePictures& pictures, MatchedPictures& matched)
 	const Stages stages = Apply(fit, pictures.render);
 	// In the photograph's levels, as every part is.
 	const double gain = fit.gain.coefficients[0];
-	const cv::Mat render = pictures.render * gain;
-	const Fit closed = FitTo(render, pictures.closed);
-	matched = { Brightness(pictures.photograph), stages[0], Brightness(pictures.render_as_photo) };
+	const cv::Mat mean = (pictures.render + pictures.render_seed1) * (gain / 2), mean_brightness = Brightness(mean);
+	const Fit closed = FitTo(mean, pictures.closed);
+	matched = { Brightness(pictures.photograph), stages[0], Brightness(pictures.render_as_photo), mean_brightness };
 
 	Parts p;
 	p.whole = Against(matched.photograph, stages);
 	p.whole_grain = Grain(stages, Apply(fit, pictures.render_seed1));
-	p.closed = Against(stages[0], Apply(closed, pictures.closed));
+	p.closed = Against(mean_brightness, Apply(closed, pictures.closed));
 	p.closed_grain = Grain(Apply(closed, pictures.render), Apply(closed, pictures.render_seed1));
-	p.noise = Differences(matched.render_as_photo, stages[0]);
+	p.noise = Differences(matched.render_as_photo, mean_brightness);
 	p.closed_photograph = Differences(matched.render_as_photo,
 		Brightness(tiltcal::Compare(pictures.render_as_photo, pictures.closed, {}, tiltcal::Match::GAIN).matched));
 	Json json;
 	json["gain"] = gain;
-	json["displacement"] = ToJson(fit.displacement, render.size());
-	json["closed_displacement"] = ToJson(closed.displacement, render.size());
+	json["displacement"] = ToJson(fit.displacement, mean.size());
+	json["closed_displacement"] = ToJson(closed.displacement, mean.size());
 	json["red"] = OneArea(p, &Errors::red);
 	json["green"] = OneArea(p, &Errors::green);
 	json["picture"] = OneArea(p, &Errors::picture);

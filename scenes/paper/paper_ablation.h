@@ -17,22 +17,23 @@ struct StatePictures
 	cv::Mat photograph;
 	cv::Mat render;             ///< through the calibrated camera
 	cv::Mat render_seed1;       ///< the same with another seed
-	cv::Mat render_as_photo;    ///< render through sensor and file format, with the gain of the photograph
-	cv::Mat closed;             ///< through the camera that was calibrated from boards that the calibrated camera photographed; seed 1
+	cv::Mat render_as_photo;    ///< the mean of both through sensor and file format, with the gain of the photograph
+	cv::Mat closed;             ///< through the camera that was calibrated from boards that the calibrated camera photographed; a third seed
 };
 
-/// The brightness of the photograph, of the render brought to it by one gain, and of the render's own photograph.
+/// The brightness of the photograph, of the render brought to it by one gain, of the render's own photograph, and of the mean of two seeds
+/// that this was made of.
 struct MatchedPictures
 {
-	cv::Mat photograph, render, render_as_photo;
+	cv::Mat photograph, render, render_as_photo, mean;
 };
 
 /// For each of red, green and picture: `measured`, the mean absolute and RMS differences, and `squares`, into which the square of
 /// the RMS of `measured.gain` is divided:
 ///
-///     noise         render_as_photo - render
+///     noise         render_as_photo - mean of both seeds
 ///     sampling      (render - render_seed1) / sqrt 2
-///     calibration   square of (render - closed) less twice that of sampling: the grain of two seeds has no part in common
+///     calibration   square of (mean of both seeds - closed) less 3/2 of that of sampling: the grain of different seeds has no part in common
 ///     model         what is left of the whole
 ///       brightness, displacement, sharpness   by how much this falls when a smooth shading, then a smooth displacement, then a smooth
 ///                   change of blur are fitted to the photograph. The same is fitted in the closed loop, and grain is taken through

@@ -71,7 +71,7 @@ Json OneState(const Run& run, const std::string& state)
 	MatchedPictures matched;
 	const Json json = Ablation(pictures, matched);
 	tiltcal::WritePng(run.out + "/difference-" + state + ".png", DifferencePicture(matched.photograph, matched.render));
-	tiltcal::WritePng(run.out + "/noise-" + state + ".png", DifferencePicture(matched.render_as_photo, matched.render));
+	tiltcal::WritePng(run.out + "/noise-" + state + ".png", DifferencePicture(matched.render_as_photo, matched.mean));
 	return json;
 }
 

@@ -16,6 +16,8 @@
 #include <cstdio>
 #include <exception>
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace
 {
@@ -24,13 +26,14 @@ void AddPhotograph(CLI::App& app)
 {
 	struct Options
 	{
-		std::string render, like, camera, out;
+		std::vector<std::string> renders;
+		std::string like, camera, out;
 		double gain = 1;
 		unsigned seed = 0;
 	};
 	auto o = std::make_shared<Options>();
 	CLI::App* c = app.add_subcommand("photograph", "What sensor and file format would have made of a render.");
-	c->add_option("RENDER", o->render, "Linear OpenEXR")->required();
+	c->add_option("RENDER", o->renders, "Linear OpenEXR; of several, seeds of one picture, the mean is taken")->required();
 	c->add_option("--like", o->like, "A photograph whose format, compression and colours (or none) the result shall have")->required();
 	c->add_option("--camera", o->camera, "camera.json with full_well_electrons and read_noise_electrons")->required();
 	c->add_option("--gain", o->gain, "Exposure: light of 1 in the photograph over 1 in the render")->required()->check(CLI::PositiveNumber);
@@ -38,7 +41,12 @@ void AddPhotograph(CLI::App& app)
 	c->add_option("--out", o->out, "FILE")->required();
 	c->callback([o]
 	{
-		cv::Mat light = tiltcal::ReadLinear(o->render, tiltcal::Transfer{});
+		cv::Mat light;
+		for (const std::string& render : o->renders)
+		{
+			const cv::Mat one = tiltcal::ReadLinear(render, tiltcal::Transfer{}) / double(o->renders.size());
+			light = light.empty() ? one : cv::Mat(light + one);
+		}
 		if (paper::IsGrey(o->like))
 			light = tiltcal::Luminance(light);
 		paper::WriteLike(o->out, paper::Expose(light, o->gain, paper::ReadSensor(o->camera), o->seed), o->like);

@@ -4,7 +4,7 @@
 //
 //   demo/                    demo.cmake's: calibration/, render-STATE.exr, profiles/STATE-MATCH.json
 //   models/MODEL/            calibrations of the same photographs by other models
-//   noise/STATE.SUFFIX       photographs of the demo's renders: noise, 8 bit, compression and nothing else
+//   noise/STATE.SUFFIX       photographs of the mean of demo's and seed1's renders: noise, 8 bit, compression and nothing else
 //   seed1/STATE.exr          the demo's renders with another seed
 //   curve/SAMPLES-SEED.exr   rows 600 to 719 of the state plus5, and their logs
 //   closed/                  photos/ of boards rendered, calibration/ of these, STATE.exr through it, profiles/

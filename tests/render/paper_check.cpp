@@ -81,8 +81,8 @@ void CheckTables(const Json& results)
 	for (const char* const state : STATES)
 		Check(double(none.at(state).at("picture")) > 1.3 * double(all.at(state).at("picture")), "effects help " + std::string(state));
 	const Json& curve = results.at("curve");
-	// Four times the samples: half the noise for random points, less for ours.
-	Check(curve.size() == 2 && double(curve.at(1).at("rms")) < 0.6 * double(curve.at(0).at("rms")), "sampling noise falls");
+	// Random points would halve the noise with four times the samples, ours do better; the curve spans four times at least.
+	Check(curve.size() >= 2 && double(curve.back().at("rms")) < 0.6 * double(curve.front().at("rms")), "sampling noise falls");
 }
 
 void CheckAblation(const Json& results)
@@ -109,10 +109,11 @@ void CheckAblation(const Json& results)
 		// displaced may not, beyond chance: a tenth of the whole, half of which is grain with 8 samples (measured: 4 % below).
 		for (const char* const part : { "calibration", "rest" })
 			Check(double(squares.at(part)) > -0.1 * whole, std::string(state) + ", " + part + ": " + Said(squares.at(part)) + " of " + Said(whole));
-		// Squares add: foretold from noise and calibration, and measured. They differ by the mean of their product, which falls with the
-		// root of two million pixels; clipped black and white are not symmetrical and leave some hundredths.
+		// Squares add: foretold from noise and calibration, and measured. They differ by the mean of the product, which falls with the root of
+		// two million pixels; but JPEG takes some of the render's grain off, which counts as noise and is not there in the sum: 8 % too much
+		// is foretold with 64 samples and every edge, 4 % with 16, nothing where few edges make calibration the larger part.
 		const double noise = measured.at("noise").at("rms"), closed = measured.at("closed_gain").at("rms"), both = measured.at("closed_photograph").at("rms");
-		Check(std::abs(std::hypot(noise, closed) / both - 1) < 0.05, std::string(state) + ": closed loop foretold " + Said(std::hypot(noise, closed)) + ", measured " + Said(both));
+		Check(std::abs(std::hypot(noise, closed) / both - 1) < 0.1, std::string(state) + ": closed loop foretold " + Said(std::hypot(noise, closed)) + ", measured " + Said(both));
 		// The displacement was found: a fit that runs away moves the picture by many pixels.
 		Check(double(all.at("displacement").at("rms_px")) < 3, std::string(state) + ": displacement " + Said(all.at("displacement").at("rms_px")) + " px");
 	}
