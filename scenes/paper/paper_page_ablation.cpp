@@ -164,7 +164,7 @@ std::string HowSeparated(const Json& results)
 		"and a cubic polynomial times the picture’s change under a Gaussian of 1 px. Each counts with what it takes away from the model’s error: the closed loop is fitted in the same way and taken off after every step, so that calibration error is not counted twice, "
 		"and two seeds’ grain is taken through the same steps, so that grain which they smooth is not counted as model. The displacement holds an error of the camera’s place too, if there is one. "
 		"The order matters a little: what two of them could explain is counted with the first.</dd>\n"
-		"<dt>shape of the blur, outliers</dt><dd>The rest: discs that are not evenly bright, coma, a surface of focus that is no paraboloid, rims behind the lens.</dd>\n</dl>\n";
+		"<dt>shape of the blur, outliers</dt><dd>The rest: discs that are not evenly bright, coma, a surface of focus that is no paraboloid, pupils that change with the angle of the ray.</dd>\n</dl>\n";
 }
 
 std::string ClosedLoop(const Json& closed)
