@@ -3,14 +3,16 @@
 #version 3.7;
 global_settings { assumed_gamma 1 }
 #ifndef (Exposure) #declare Exposure = 0.944; #end   // of the photograph: `tiltcal profile --match gain` finds it
-#ifndef (Photo_File) #declare Photo_File = "plus5.jpg"; #end
+#include "photo.inc"   // Photo_File, which composition.cmake writes
 #declare Photo = function { pigment { image_map { jpeg Photo_File once } } }
 #declare Without = function { pigment { image_map { exr "pass0.exr" once } } }
 #declare With = function { pigment { image_map { exr "pass1.exr" once } } }
 #declare Dragon = function { pigment { image_map { exr "pass2.exr" once } } }
-#declare Red = function { min(0.9999, Exposure*Dragon(x,y,z).red + Photo(x,y,z).red*max(0, With(x,y,z).red - Dragon(x,y,z).red)/max(1e-4, Without(x,y,z).red)) }
-#declare Green = function { min(0.9999, Exposure*Dragon(x,y,z).green + Photo(x,y,z).green*max(0, With(x,y,z).green - Dragon(x,y,z).green)/max(1e-4, Without(x,y,z).green)) }
-#declare Blue = function { min(0.9999, Exposure*Dragon(x,y,z).blue + Photo(x,y,z).blue*max(0, With(x,y,z).blue - Dragon(x,y,z).blue)/max(1e-4, Without(x,y,z).blue)) }
+// Of the photograph's light that is left; all where the lens lets none of the few samples of a dark corner through.
+#declare Share = function(x, y) { select(y - 1e-4, 1, max(0, x)/max(1e-4, y)) }
+#declare Red = function { min(0.9999, Exposure*Dragon(x,y,z).red + Photo(x,y,z).red*Share(With(x,y,z).red - Dragon(x,y,z).red, Without(x,y,z).red)) }
+#declare Green = function { min(0.9999, Exposure*Dragon(x,y,z).green + Photo(x,y,z).green*Share(With(x,y,z).green - Dragon(x,y,z).green, Without(x,y,z).green)) }
+#declare Blue = function { min(0.9999, Exposure*Dragon(x,y,z).blue + Photo(x,y,z).blue*Share(With(x,y,z).blue - Dragon(x,y,z).blue, Without(x,y,z).blue)) }
 box {
 	0, <1, 1, 0.01>
 	pigment {

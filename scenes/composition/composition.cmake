@@ -3,7 +3,7 @@
 #   cmake -DTILTCAL= -DPOVRAY= -DSCENES=<scenes> -DCALIBRATION=<out of tiltcal calibrate> -DOUT= [-DSTATE=plus5]
 #         [-DWIDTH=1800] [-DSAMPLES=128] [-DPUT_IN=1] [-DPICTURE=composed.png] -P composition.cmake
 #
-# OUT receives pose.inc, pose-points.png, pass0.exr to pass2.exr and the picture. Any step that fails ends it.
+# OUT receives pose.inc, pose-points.png, photo.inc, pass0.exr to pass2.exr and the picture. Any step that fails ends it.
 cmake_minimum_required(VERSION 3.25)
 foreach(name TILTCAL POVRAY SCENES CALIBRATION OUT)
 	if(NOT DEFINED ${name})
@@ -46,5 +46,7 @@ if(PICTURE MATCHES "\\.exr$")
 elseif(PICTURE MATCHES "\\.jpg$")
 	set(format +FJ90)
 endif()
-run_povray("${PICTURE}" "+I${here}/combine.pov" ${format} "Declare=Photo_File=\"${STATE}.jpg\"")
+# POV-Ray 3.7 declares no strings on its command line.
+file(WRITE "${OUT}/photo.inc" "#declare Photo_File = \"${STATE}.jpg\";\n")
+run_povray("${PICTURE}" "+I${here}/combine.pov" ${format})
 message("[composition] written to ${OUT}/${PICTURE}")
