@@ -4,35 +4,11 @@
 
 #include <cstdio>
 
+#include "nasty_words.h"
 #include "random.h"
 
 namespace
 {
-
-const char* const NastyNumbers[] = {
-	"0", "-0", "1", "-1", "1e-310", "-1e-310", "5e-324", "1e-300", "1e-160", "-1e-160", "1e-16", "1e-7", "1e7", "-1e7", "1e16",
-	"1e30", "-1e30", "1e155", "-1e155", "1e300", "1e308", "-1e308", "1e400", "-1e400", "89.99999999999999", "90", "-90", "180", "360",
-	"(1e308*1e308)", "(-1e308*1e308)", "((1e308*1e308)-(1e308*1e308))", "(1e-308*1e-308)", "Infinite", "-Infinite", "NotANumber",
-	"Tiny", "Huge", "sqrt(-1)", "ln(0)", "(1/0)", "(0/0)", "pow(0,-1)", "acos(2)", "tan(pi/2)", "exp(1000)", "mod(1,0)", "1/3", "clock",
-	"vlength(<1e200,1e200,0>)", "vdot(<Infinite,0,0>,<0,1,0>)", "(Vector.x)", "exp(-740)" };
-
-const char* const NastyVectors[] = {
-	"0", "1", "x", "y", "z", "-z", "x+y", "1e-310*z", "1e308*(x+y+z)", "Vector", "-Vector", "Infinite*y", "NotANumber*z",
-	"<NotANumber,0,1>", "<Infinite,0,1>", "<0,0,-Infinite>", "vnormalize(<0,0,0>)", "vcross(x,x)", "vrotate(x,<0,0,1e300>)",
-	"<1e155,1e155,1e155>", "<1e-170,1e-170,1e-170>", "<5e-324,0,0>", "<1,2>", "<1,2,3,4,5>", "<1 2 3>", "<1,2,3", "<,>", "Tiny*x" };
-
-const char* const NotNumbers[] = {
-	"\"text\"", "<1,2,3>", "x", "rgb", "{", "}", "-", "+", "on", "Undeclared", "Other", "#declare", "," };
-
-const char* const Strays[] = {
-	"{", "}", "{", "}", ",", "<", ">", "(", ")", "-", ";", "tilt_lens", "tilt_lens {}", "camera", "camera {", "focal_length", "focal_points",
-	"show", "show plane", "focus", "denoise", "seed", "shift", "distortion", "lens_tilt", "location", "look_at", "angle", "aperture", "sphere", "pigment",
-	"perspective", "orthographic", "fisheye", "normal", "Other", "NoCamera", "Vector", "42", "\"", "//", "/*", "\"text\"",
-	"#if (0)", "#end", "#declare", "#local A = 1;", "#undef Vector", "#macro M()", "blades", "bokeh", "default", "@", "\xff" };
-
-const char* const OtherTypes[] = {
-	"perspective", "orthographic", "fisheye", "ultra_wide_angle", "omnimax", "panoramic", "cylinder 1", "cylinder 3", "cylinder 9",
-	"spherical", "mesh_camera { 1 0 }" };
 
 struct FloatWord
 {
@@ -44,6 +20,20 @@ const FloatWord LensFloats[] = {
 	{"focal_plane_tilt", -89, 89}, {"lens_tilt", -60, 60}, {"tilt_direction", -360, 360}, {"focal_distance", -1, 20},
 	{"image_distance", 0.1, 3}, {"focal_length", 0.1, 2}, {"aperture_diameter", 0, 2}, {"f_stop", 0.1, 22},
 	{"field_curvature", -2, 2} };
+
+// An effect: words, each followed by numbers with commas between them.
+struct EffectPhrase
+{
+	const char* words;
+	int numbers;
+	double low, high;
+	bool repeats;   // the numbers may follow again, behind a comma
+};
+
+const EffectPhrase Effects[] = {
+	{"blades", 1, 2, 12, false}, {"rotation", 1, -360, 360, false}, {"curvature", 1, -0.5, 1.2, false}, {"vignetting natural", 0, 0, 0, false},
+	{"vignetting optical", 2, -0.5, 3, true}, {"chromatic lateral", 2, -0.1, 0.1, false}, {"chromatic axial", 2, -0.5, 0.5, false},
+	{"pupil_magnification", 1, 0.2, 4, false}, {"bokeh { pigment { rgb 1 } }", 0, 0, 0, false} };
 
 // Tokens, so that they can be left out, doubled and swapped.
 class Writer
@@ -167,6 +157,18 @@ class Writer
 				PlaneWords(2 + which % 2);
 		}
 
+		void Effect()
+		{
+			const EffectPhrase& effect = Effects[random.Below(int(sizeof(Effects) / sizeof(Effects[0])))];
+			Say(effect.words);
+			for (int i = 0, n = effect.numbers * (effect.repeats ? 1 + random.Below(5) : 1); i < n; i++)
+			{
+				if (i > 0)
+					Say(",");
+				Number(effect.low, effect.high);
+			}
+		}
+
 		void TiltLens()
 		{
 			Say("tilt_lens");
@@ -193,6 +195,8 @@ class Writer
 				for (int word = 8; word <= 11; word++)
 					if (random.Chance(0.15))
 						LensWord(word);                     // field_curvature, shift, distortion, show
+				while (random.Chance(0.3))
+					Effect();
 				if (random.Chance(0.15))
 					Say("denoise");
 				if (random.Chance(0.1))
