@@ -2,6 +2,8 @@
 
 #include "find_crossing.h"
 
+#include "image_io.h"
+
 #include <opencv2/imgproc.hpp>
 
 #include <array>
@@ -24,17 +26,6 @@ bool Inside(const cv::Mat& image, const cv::Point2d& p, double margin)
 	return p.x >= margin && p.y >= margin && p.x <= image.cols - 1 - margin && p.y <= image.rows - 1 - margin;
 }
 
-/// Bilinear brightness at a point inside the picture.
-double At(const cv::Mat& grey, double u, double v)
-{
-	const int x = static_cast<int>(u), y = static_cast<int>(v);
-	const float* const above = grey.ptr<float>(y) + x;
-	const float* const below = grey.ptr<float>(std::min(y + 1, grey.rows - 1)) + x;
-	const int right = x + 1 < grey.cols ? 1 : 0;
-	const double a = u - x, b = v - y;
-	return (1 - b) * ((1 - a) * above[0] + a * above[right]) + b * ((1 - a) * below[0] + a * below[right]);
-}
-
 /// Whether the brightness on a circle around `p` repeats after half a turn and not after a quarter.
 bool IsCrossing(const cv::Mat& grey, const cv::Point2d& p, double radius)
 {
@@ -44,7 +35,7 @@ bool IsCrossing(const cv::Mat& grey, const cv::Point2d& p, double radius)
 	for (size_t i = 0; i < STEPS; ++i)
 	{
 		const double angle = 2 * M_PI * static_cast<double>(i) / STEPS;
-		g[i] = At(grey, p.x + radius * std::cos(angle), p.y + radius * std::sin(angle));
+		g[i] = Bilinear(grey, p.x + radius * std::cos(angle), p.y + radius * std::sin(angle));
 		mean += g[i] / STEPS;
 	}
 	double variance = 0, half_turn = 0, quarter_turn = 0;
@@ -56,11 +47,6 @@ bool IsCrossing(const cv::Mat& grey, const cv::Point2d& p, double radius)
 	}
 	return variance > LEAST_CONTRAST * LEAST_CONTRAST && half_turn > LEAST_LIKENESS * variance && quarter_turn < 0;
 }
-
-}
-
-namespace
-{
 
 /// cv::cornerSubPix, which returns its start where it gives up.
 cv::Point2f Refined(const cv::Mat& grey, const cv::Point2f& start, int half)

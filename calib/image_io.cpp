@@ -16,6 +16,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 #include <vector>
 
@@ -114,6 +115,16 @@ cv::Mat ReadLinear(const std::string& file, const Transfer& transfer, Photograph
 	{
 		throw FileError(fmt::format("{}: cannot be read: {}", file, e.what()));
 	}
+}
+
+double Bilinear(const cv::Mat& image, double x, double y)
+{
+	const int x0 = std::clamp(static_cast<int>(std::floor(x)), 0, std::max(0, image.cols - 2));
+	const int y0 = std::clamp(static_cast<int>(std::floor(y)), 0, std::max(0, image.rows - 2));
+	const int x1 = std::min(x0 + 1, image.cols - 1), y1 = std::min(y0 + 1, image.rows - 1);
+	const double fx = x - x0, fy = y - y0;
+	return (1 - fy) * ((1 - fx) * image.at<float>(y0, x0) + fx * image.at<float>(y0, x1))
+		+ fy * ((1 - fx) * image.at<float>(y1, x0) + fx * image.at<float>(y1, x1));
 }
 
 cv::Mat Luminance(const cv::Mat& linear)

@@ -29,6 +29,9 @@ cv::Mat ReadLinear(const std::string& file, const Transfer& transfer, Photograph
 /// Luminance (Rec. 709 / sRGB primaries) as CV_32FC1.
 cv::Mat Luminance(const cv::Mat& linear);
 
+/// Value of a CV_32FC1 picture at a point in it (0 <= x <= cols - 1, 0 <= y <= rows - 1), between its four pixels.
+double Bilinear(const cv::Mat& image, double x, double y);
+
 /// 8-bit sRGB picture of `linear` times `gain`, CV_8UC1 or CV_8UC3.
 cv::Mat ToDisplay(const cv::Mat& linear, double gain = 1);
 

@@ -57,11 +57,6 @@ CameraBlock Block(const StateCamera& c, const CameraPose& pose, double unit_mm)
 	return block;
 }
 
-}
-
-namespace
-{
-
 /// The place for TiltCal_<state>_Body of the calibration's .inc files. Look_At is a focus distance away, for the eye.
 std::string PlaceText(const StateCamera& c, const CameraPose& pose, double unit_mm)
 {

@@ -22,17 +22,6 @@ namespace
 
 const int SHADING_ORDER = 4;
 
-/// Bilinear; inside the picture by the caller's check.
-double Sample(const cv::Mat& image, double x, double y)
-{
-	const int x0 = std::clamp(static_cast<int>(std::floor(x)), 0, std::max(0, image.cols - 2));
-	const int y0 = std::clamp(static_cast<int>(std::floor(y)), 0, std::max(0, image.rows - 2));
-	const int x1 = std::min(x0 + 1, image.cols - 1), y1 = std::min(y0 + 1, image.rows - 1);
-	const double fx = x - x0, fy = y - y0;
-	return (1 - fy) * ((1 - fx) * image.at<float>(y0, x0) + fx * image.at<float>(y0, x1))
-		+ fy * ((1 - fx) * image.at<float>(y1, x0) + fx * image.at<float>(y1, x1));
-}
-
 double Brightness(double linear) { return 255 * EncodeSrgb(linear); }
 
 void CheckInside(const Line& line, cv::Size size)
@@ -54,7 +43,7 @@ LineProfile Along(const cv::Mat& a, const cv::Mat& b, const Line& line)
 	{
 		const double t = length > 0 ? k / length : 0;
 		const double x = line.x0 + t * (line.x1 - line.x0), y = line.y0 + t * (line.y1 - line.y0);
-		profile.samples.push_back({ double(k), x, y, Brightness(Sample(a, x, y)), Brightness(Sample(b, x, y)) });
+		profile.samples.push_back({ double(k), x, y, Brightness(Bilinear(a, x, y)), Brightness(Bilinear(b, x, y)) });
 		profile.mean_abs_error += std::abs(profile.samples.back().a - profile.samples.back().b);
 	}
 	profile.mean_abs_error /= double(profile.samples.size());

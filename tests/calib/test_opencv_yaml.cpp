@@ -4,6 +4,7 @@
 
 #include "error.h"
 #include "opencv_yaml.h"
+#include "posed_camera.h"
 
 #include <Eigen/LU>
 #include <fmt/format.h>
@@ -25,15 +26,10 @@ using testing::HasSubstr;
 
 StateCamera MakeCamera(double tilt, double direction)
 {
-	StateCamera c;
+	StateCamera c = TiltedCamera();
 	c.state = "state";
 	c.model = "curved";
-	c.width = 1800;
-	c.height = 1200;
-	c.pitch_mm = 0.02;
-	c.image_distance_mm = 48.32;
-	c.principal_point = { 911.7, 588.3 };
-	c.distortion = { -0.09, 0.12, 0.0013, -0.0021, -0.05 };
+	c.distortion[4] = -0.05;
 	c.lens_tilt_deg = tilt;
 	c.tilt_direction_deg = direction;
 	c.focus_distance_mm = 650;

@@ -80,6 +80,15 @@ TEST(NaturalVignetting, DoesNotDependOnTheLengthOfTheDirection)
 		EXPECT_NEAR(NaturalFalloff(n, Axis, s * v), NaturalFalloff(n, Axis, v), 1e-15);
 }
 
+// The rim's view of a ray that meets its plane at `met`, from its centre. Returns whether it passes.
+bool ExpectMet(const RimView<double>& view, const V& S, const V& met, double R)
+{
+	EXPECT_NEAR(Length(view.scale * S + view.offset - met), 0, 1e-14);
+	const bool passes = Length(met) <= R;
+	EXPECT_EQ(PassesRim(view, S, R), passes);
+	return passes;
+}
+
 // The ray R = v - kappa S followed to the plane n.P = Z. Random lenses, rounding only.
 TEST(OpticalVignetting, AsksWhereTheRayMeetsTheRimsPlane)
 {
@@ -95,10 +104,7 @@ TEST(OpticalVignetting, AsksWhereTheRayMeetsTheRimsPlane)
 		const V direction = RayDirection(v, S, kappa);
 		const V met = S + (Z / Dot(direction, n)) * direction;
 		const RimView<double> view = ViewOfRim(n, 48.2 * v, 48.2 * kappa, Z);   // any length
-		EXPECT_NEAR(Length(view.scale * S + view.offset - (met - Z * n)), 0, 1e-14);
-		const bool passes = Length(met - Z * n) <= R;
-		EXPECT_EQ(PassesRim(view, S, R), passes);
-		passed += passes;
+		passed += ExpectMet(view, S, met - Z * n, R);
 	}
 	EXPECT_GT(passed, 400);
 	EXPECT_LT(passed, 1600);
@@ -121,10 +127,7 @@ TEST(OpticalVignetting, AsksWhereTheLightMeetsARimBehindTheLens)
 		const double t = (Z - Dot(from, n)) / (Dot(to, n) - Dot(from, n));
 		const V met = from + t * (to - from);
 		const RimView<double> view = ViewOfRimBehind(n, e, 48.2 * p, w, M, Z);   // any length
-		EXPECT_NEAR(Length(view.scale * S + view.offset - (met - Z * n)), 0, 1e-14);
-		const bool passes = Length(met - Z * n) <= R;
-		EXPECT_EQ(PassesRim(view, S, R), passes);
-		passed += passes;
+		passed += ExpectMet(view, S, met - Z * n, R);
 	}
 	EXPECT_GT(passed, 400);
 	EXPECT_LT(passed, 1600);
