@@ -68,14 +68,15 @@ function(calibrate out photographs suffix)
 	endif()
 endfunction()
 
-# render(SCENE_FILE CALIBRATION STATE_NUMBER SAMPLES SEED PICTURE OPTIONS...): 1800 x 1200, linear, its log beside it.
+# render(SCENE_FILE CALIBRATION STATE SAMPLES SEED PICTURE OPTIONS...): 1800 x 1200, linear, its log beside it.
 # tiltcal's camera files have no switch for the seed: those of CALIBRATION are copied with the word in.
-function(render scene_file calibration number samples seed picture)
+function(render scene_file calibration state samples seed picture)
 	has("${picture}" there)
 	if(there)
 		return()
 	endif()
 	get_filename_component(scene_folder "${scene_file}" DIRECTORY)
+	list(FIND STATES ${state} number)
 	set(cameras "${calibration}")
 	if(seed)
 		set(cameras "${OUT}/seeded/${seed}")
@@ -97,14 +98,22 @@ function(render scene_file calibration number samples seed picture)
 endfunction()
 
 # boxes: every render of the boxes but demo.cmake's goes through here. CALIBRATION holds pose.inc.
-function(boxes calibration number samples seed picture)
-	render("${SCENE}/boxes.pov" "${calibration}" ${number} ${samples} ${seed} "${picture}" ${ARGN})
+function(boxes calibration state samples seed picture)
+	render("${SCENE}/boxes.pov" "${calibration}" ${state} ${samples} ${seed} "${picture}" ${ARGN})
 endfunction()
 
 # compare(PHOTO RENDER FOLDER STATE MATCH): tiltcal profile on the two lines; the numbers in FOLDER/STATE-MATCH.json.
 function(compare photo picture folder state match)
-	run("${folder}/${state}-${match}/log.txt" "${TILTCAL}" profile "${photo}" "${picture}" --line 0,660,1799,660 --line 900,0,900,1199
+	run("${folder}/${state}-${match}/log.txt" "${TILTCAL}" profile "${photo}" "${picture}" --line ${RED_LINE} --line ${GREEN_LINE}
 		--match ${match} --json "${folder}/${state}-${match}.json" --out "${folder}/${state}-${match}")
+endfunction()
+
+# boxes_against(PHOTOGRAPHS SUFFIX CALIBRATION SAMPLES SEED PICTURES PROFILES): all states through that camera, and Table 2's numbers with one gain.
+function(boxes_against photographs photo_suffix calibration samples seed pictures profiles)
+	foreach(state IN LISTS STATES)
+		boxes("${calibration}" ${state} ${samples} ${seed} "${pictures}/${state}.exr")
+		compare("${photographs}/${state}.${photo_suffix}" "${pictures}/${state}.exr" "${profiles}" ${state} gain)
+	endforeach()
 endfunction()
 
 # photograph(RENDERS LIKE GAIN SEED RESULT): what the sensor and the file format of LIKE would have made of the render, or of the mean of several.
@@ -164,10 +173,8 @@ calibrate("${OUT}/models/plane" "${photos}/target" jpg --model plane)
 calibrate("${OUT}/models/photometric" "${photos}/target" jpg --refine photometric)
 
 step("sampling noise: the renders again with another seed")
-set(number 0)
 foreach(state IN LISTS STATES)
-	boxes("${calibration}" ${number} ${SAMPLES} 1 "${OUT}/seed1/${state}.exr")
-	math(EXPR number "${number} + 1")
+	boxes("${calibration}" ${state} ${SAMPLES} 1 "${OUT}/seed1/${state}.exr")
 endforeach()
 
 # Of the mean of both seeds: compression takes some of a render's grain off, which a photograph has not got.
@@ -181,7 +188,7 @@ endforeach()
 step("sampling noise and time over samples: a tenth of the picture plus5, about the red line")
 foreach(count IN LISTS CURVE)
 	foreach(seed 0 1)
-		boxes("${calibration}" 1 ${count} ${seed} "${OUT}/curve/${count}-${seed}.exr" +SR601 +ER720)
+		boxes("${calibration}" plus5 ${count} ${seed} "${OUT}/curve/${count}-${seed}.exr" +SR601 +ER720)
 	endforeach()
 endforeach()
 
@@ -195,7 +202,7 @@ foreach(state IN LISTS STATES)
 		has("${closed}/photos/${state}-${photo}.${suffix}" there)
 		if(NOT there)
 			math(EXPR seed "1000 * (${number} + 1) + ${photo}") # no two pictures with the same grain
-			render("${SCENES}/board/board.pov" "${calibration}" ${number} ${BOARD_SAMPLES} ${seed} "${closed}/board.exr" Declare=Photo=${photo})
+			render("${SCENES}/board/board.pov" "${calibration}" ${state} ${BOARD_SAMPLES} ${seed} "${closed}/board.exr" Declare=Photo=${photo})
 			list(GET board_photos 0 like)
 			photograph("${closed}/board.exr" "${like}" ${gain_${state}} ${seed} "${closed}/photos/${state}-${photo}.${suffix}")
 			file(REMOVE "${closed}/board.exr")
@@ -209,12 +216,7 @@ calibrate("${closed}/calibration" "${closed}/photos" ${suffix})
 
 step("closed loop: the boxes through the camera found, placed by the closed loop's own photograph of them")
 place_boxes("${closed}/calibration" "${OUT}/noise/untilted.${suffix}")
-set(number 0)
-foreach(state IN LISTS STATES)
-	boxes("${closed}/calibration" ${number} ${SAMPLES} 2 "${closed}/${state}.exr")
-	compare("${OUT}/noise/${state}.${suffix}" "${closed}/${state}.exr" "${closed}/profiles" ${state} gain)
-	math(EXPR number "${number} + 1")
-endforeach()
+boxes_against("${OUT}/noise" ${suffix} "${closed}/calibration" ${SAMPLES} 2 "${closed}" "${closed}/profiles")
 
 step("what a thin lens cannot know: Table 2 with fewer effects, ${EFFECT_SAMPLES} samples a pixel")
 has("${OUT}/effects/shares.md" there)
@@ -225,12 +227,7 @@ endif()
 
 step("the boxes through the camera of the paper's method")
 place_boxes("${OUT}/models/paper")
-set(number 0)
-foreach(state IN LISTS STATES)
-	boxes("${OUT}/models/paper" ${number} ${EFFECT_SAMPLES} 0 "${OUT}/paper-method/${state}.exr")
-	compare("${photos}/scene/${state}.jpg" "${OUT}/paper-method/${state}.exr" "${OUT}/paper-method" ${state} gain)
-	math(EXPR number "${number} + 1")
-endforeach()
+boxes_against("${photos}/scene" jpg "${OUT}/models/paper" ${EFFECT_SAMPLES} 0 "${OUT}/paper-method" "${OUT}/paper-method")
 
 step("the ablation, difference pictures")
 string(REPLACE ";" "," curve "${CURVE}")
