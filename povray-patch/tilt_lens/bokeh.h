@@ -12,7 +12,7 @@
 #include "backend/frame.h"
 #include "backend/colour/colour.h"
 #include "backend/texture/pigment.h"
-#include "backend/tilt_lens/lens_spec.h"
+#include "lens/lens_spec.h"
 
 namespace tilt_lens
 {

@@ -10,9 +10,9 @@
 
 #include <boost/shared_ptr.hpp>
 
-#include "backend/tilt_lens/adaptive.h"
-#include "backend/tilt_lens/lens_spec.h"
-#include "backend/tilt_lens/pilot.h"
+#include "lens/adaptive.h"
+#include "lens/lens_spec.h"
+#include "lens/pilot.h"
 
 namespace tilt_lens
 {

@@ -6,7 +6,7 @@
 #define TILT_LENS_CAMERA_VECTORS_H
 
 #include "backend/scene/camera.h"
-#include "backend/tilt_lens/lens_spec.h"
+#include "lens/lens_spec.h"
 
 namespace pov
 {

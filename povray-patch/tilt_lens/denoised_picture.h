@@ -11,7 +11,7 @@
 
 #include <boost/thread/mutex.hpp>
 
-#include "backend/tilt_lens/denoise.h"
+#include "lens/denoise.h"
 
 namespace tilt_lens
 {

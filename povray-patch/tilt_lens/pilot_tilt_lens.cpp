@@ -12,7 +12,7 @@
 #include "backend/colour/colour.h"
 #include "backend/math/vector.h"
 #include "backend/render/tracepixel.h"
-#include "backend/tilt_lens/pilot.h"
+#include "lens/pilot.h"
 #include "backend/tilt_lens/sample_sums.h"
 
 // this must be the last file included

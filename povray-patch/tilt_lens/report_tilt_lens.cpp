@@ -13,7 +13,7 @@
 #include "base/povmsgid.h"
 #include "backend/math/vector.h"
 #include "backend/scene/view.h"
-#include "backend/tilt_lens/statistics.h"
+#include "lens/statistics.h"
 #include "backend/tilt_lens/camera_vectors.h"
 #include "backend/tilt_lens/denoised_picture.h"
 

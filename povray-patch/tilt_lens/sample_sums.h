@@ -7,8 +7,8 @@
 
 #include <algorithm>
 
-#include "backend/tilt_lens/convergence.h"
-#include "backend/tilt_lens/sampler.h"
+#include "lens/convergence.h"
+#include "lens/sampler.h"
 
 namespace tilt_lens
 {

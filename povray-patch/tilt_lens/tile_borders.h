@@ -14,7 +14,7 @@
 
 #include <boost/thread/mutex.hpp>
 
-#include "backend/tilt_lens/adaptive.h"
+#include "lens/adaptive.h"
 
 namespace tilt_lens
 {

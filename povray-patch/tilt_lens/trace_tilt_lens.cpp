@@ -10,10 +10,10 @@
 #include "backend/scene/objects.h"
 #include "backend/shape/planes.h"
 #include "backend/tilt_lens/bokeh.h"
-#include "backend/tilt_lens/optics.h"
-#include "backend/tilt_lens/preview.h"
+#include "lens/optics.h"
+#include "lens/preview.h"
 #include "backend/tilt_lens/sample_sums.h"
-#include "backend/tilt_lens/pupil.h"
+#include "lens/pupil.h"
 
 // this must be the last file included
 #include "base/povdebug.h"

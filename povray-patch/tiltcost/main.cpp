@@ -2,8 +2,8 @@
 //
 // tiltcost: what accuracy costs in time, for the user's own scene.
 
-#include "error.h"
-#include "files.h"
+#include <tiltcal/error.h>
+#include "base/files.h"
 #include "options.h"
 #include "progress.h"
 #include "report.h"

@@ -2,7 +2,7 @@
 
 #include "pilot_file.h"
 
-#include "error.h"
+#include <tiltcal/error.h>
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #ifndef TILTCOST_PILOT_FILE_H
 #define TILTCOST_PILOT_FILE_H
 
-#include "tilt_lens/pilot.h"
+#include "lens/pilot.h"
 
 #include <string>
 #include <vector>

@@ -2,7 +2,7 @@
 
 #include "pilot_run.h"
 
-#include "error.h"
+#include <tiltcal/error.h>
 #include "progress.h"
 
 #include <fmt/format.h>

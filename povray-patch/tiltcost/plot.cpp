@@ -2,9 +2,9 @@
 
 #include "report.h"
 
-#include "error.h"
-#include "files.h"
-#include "gnuplot.h"
+#include <tiltcal/error.h>
+#include "base/files.h"
+#include "base/gnuplot.h"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 
 #include "prediction.h"
 
-#include "tilt_lens/denoise.h"
+#include "lens/denoise.h"
 
 #include <algorithm>
 #include <cmath>

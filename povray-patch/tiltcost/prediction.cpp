@@ -2,7 +2,7 @@
 
 #include "prediction.h"
 
-#include "transfer.h"
+#include "base/transfer.h"
 
 #include <boost/math/distributions/chi_squared.hpp>
 #include <fmt/format.h>

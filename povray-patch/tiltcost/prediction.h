@@ -14,8 +14,8 @@
 
 #include "pilot_file.h"
 
-#include "tilt_lens/adaptive.h"
-#include "tilt_lens/convergence.h"
+#include "lens/adaptive.h"
+#include "lens/convergence.h"
 
 #include <string>
 #include <vector>

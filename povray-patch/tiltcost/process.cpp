@@ -2,7 +2,7 @@
 
 #include "process.h"
 
-#include "error.h"
+#include <tiltcal/error.h>
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 
 #include "search.h"
 
-#include "tilt_lens/denoise.h"
+#include "lens/denoise.h"
 
 #include <algorithm>
 #include <cmath>

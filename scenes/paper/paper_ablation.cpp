@@ -4,7 +4,7 @@
 
 #include "paper_brightness.h"
 #include "paper_smooth_fit.h"
-#include "profile.h"
+#include "profile/profile.h"
 
 #include <array>
 #include <cmath>

@@ -2,8 +2,8 @@
 
 #include "paper_brightness.h"
 
-#include "image_io.h"
-#include "transfer.h"
+#include "picture/image_io.h"
+#include "base/transfer.h"
 
 #include <cmath>
 

@@ -8,9 +8,9 @@
 #include "paper_pictures.h"
 #include "paper_tables.h"
 
-#include "error.h"
-#include "files.h"
-#include "image_io.h"
+#include <tiltcal/error.h>
+#include "base/files.h"
+#include "picture/image_io.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>

@@ -6,11 +6,11 @@
 #include "paper_page_parts.h"
 #include "paper_pictures.h"
 
-#include "error.h"
-#include "files.h"
-#include "gnuplot.h"
-#include "html.h"
-#include "image_io.h"
+#include <tiltcal/error.h>
+#include "base/files.h"
+#include "base/gnuplot.h"
+#include "report/html.h"
+#include "picture/image_io.h"
 
 #include <fmt/format.h>
 #include <opencv2/imgcodecs.hpp>

@@ -2,7 +2,7 @@
 
 #include "paper_page_parts.h"
 
-#include "html.h"
+#include "report/html.h"
 
 #include <fmt/format.h>
 

@@ -2,11 +2,11 @@
 
 #include "paper_photograph.h"
 
-#include "error.h"
-#include "files.h"
-#include "image_io.h"
-#include "picture_file.h"
-#include "transfer.h"
+#include <tiltcal/error.h>
+#include "base/files.h"
+#include "picture/image_io.h"
+#include "picture/picture_file.h"
+#include "base/transfer.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

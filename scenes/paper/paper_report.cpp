@@ -6,8 +6,8 @@
 #include "paper_page.h"
 #include "paper_photograph.h"
 
-#include "error.h"
-#include "image_io.h"
+#include <tiltcal/error.h>
+#include "picture/image_io.h"
 
 #include <CLI/CLI.hpp>
 #include <spdlog/sinks/stdout_color_sinks.h>

@@ -2,7 +2,7 @@
 
 #include "paper_smooth_fit.h"
 
-#include "robust.h"
+#include "base/robust.h"
 
 #include <Eigen/Dense>
 #include <opencv2/imgproc.hpp>

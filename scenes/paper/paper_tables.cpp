@@ -4,8 +4,8 @@
 
 #include "paper_published.h"
 
-#include "error.h"
-#include "files.h"
+#include <tiltcal/error.h>
+#include "base/files.h"
 
 #include <fmt/format.h>
 

@@ -8,11 +8,11 @@
 //
 // The truth of the photographs is the mechanical tilt, 5 and -5 degrees towards 0.
 
-#include "calibrate.h"
+#include <tiltcal/calibrate.h>
 #include "calibrator_runs.h"
 #include "calibrator_statistics.h"
-#include "error.h"
-#include "files.h"
+#include <tiltcal/error.h>
+#include "base/files.h"
 #include "paper_approximations.h"
 
 #include <CLI/CLI.hpp>

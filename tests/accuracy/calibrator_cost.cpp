@@ -10,10 +10,10 @@
 // scatter, over draws of photographs or edges, is what effort buys.
 // Exit codes of tiltcal; 1 also when an exact model is biased on exact data.
 
-#include "calibrate.h"
+#include <tiltcal/calibrate.h>
 #include "calibrator_report.h"
-#include "error.h"
-#include "files.h"
+#include <tiltcal/error.h>
+#include "base/files.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -2,9 +2,9 @@
 
 #include "calibrator_report.h"
 
-#include "files.h"
-#include "gnuplot.h"
-#include "write_csv.h"
+#include "base/files.h"
+#include "base/gnuplot.h"
+#include "report/write_csv.h"
 
 #include <fmt/format.h>
 

@@ -3,11 +3,11 @@
 #include "calibrator_runs.h"
 
 #include "../calib/synthetic_lens.h"
-#include "error.h"
-#include "files.h"
-#include "image_io.h"
-#include "measure.h"
-#include "spread_order.h"
+#include <tiltcal/error.h>
+#include "base/files.h"
+#include "picture/image_io.h"
+#include "measure/measure.h"
+#include "measure/spread_order.h"
 
 #include <algorithm>
 #include <array>

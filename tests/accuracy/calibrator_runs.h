@@ -5,7 +5,7 @@
 #ifndef CALIBRATOR_RUNS_H
 #define CALIBRATOR_RUNS_H
 
-#include "calibration.h"
+#include <tiltcal/calibration.h>
 
 #include <memory>
 #include <string>

@@ -3,8 +3,8 @@
 #include "paper_approximations.h"
 
 #include "../calib/synthetic_lens.h"
-#include "blur_fit.h"
-#include "solve_geometry.h"
+#include "solve/blur_fit.h"
+#include "solve/solve_geometry.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include "posed_camera.h"
 
-#include "opencv_yaml.h"
+#include "camera/opencv_yaml.h"
 
 #include <Eigen/Geometry>
 #include <opencv2/calib3d.hpp>

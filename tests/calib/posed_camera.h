@@ -5,8 +5,8 @@
 #ifndef POSED_CAMERA_H
 #define POSED_CAMERA_H
 
-#include "pose_points.h"
-#include "state_camera.h"
+#include "camera/pose_points.h"
+#include "camera/state_camera.h"
 
 #include <Eigen/Core>
 

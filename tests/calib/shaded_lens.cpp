@@ -2,6 +2,8 @@
 
 #include "shaded_lens.h"
 
+#include "model/projection.h"
+#include <tiltcal/photo.h>
 #include <Eigen/Geometry>
 
 #include <cmath>

@@ -8,7 +8,7 @@
 #ifndef TILTCAL_SYNTHETIC_LENS_H
 #define TILTCAL_SYNTHETIC_LENS_H
 
-#include "calibration.h"
+#include <tiltcal/calibration.h>
 
 namespace synthetic
 {

@@ -3,10 +3,11 @@
 // Corners and blur widths of strongly blurred checkerboards (blurred_checker.h), against pictures that are the mean of pinhole
 // pictures (thin_lens_picture.h).
 
-#include "blurred_checker.h"
-#include "detect.h"
-#include "error.h"
-#include "measure.h"
+#include "edge/blurred_checker.h"
+#include <tiltcal/photo.h>
+#include "measure/detect.h"
+#include <tiltcal/error.h>
+#include "measure/measure.h"
 #include "thin_lens_picture.h"
 
 #include <gtest/gtest.h>

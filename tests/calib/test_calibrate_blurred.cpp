@@ -2,9 +2,9 @@
 //
 // From pictures so blurred that edges run into each other to the tilt of the lens.
 
-#include "calibrate.h"
-#include "detect.h"
-#include "measure.h"
+#include <tiltcal/calibrate.h>
+#include "measure/detect.h"
+#include "measure/measure.h"
 #include "thin_lens_picture.h"
 
 #include <gtest/gtest.h>

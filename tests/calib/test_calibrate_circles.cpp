@@ -2,11 +2,11 @@
 //
 // From pictures of grids of circles to the tilt of the lens.
 
-#include "calibrate.h"
-#include "measure_circles.h"
-#include "overlay.h"
+#include <tiltcal/calibrate.h>
+#include "measure/measure_circles.h"
+#include "report/overlay.h"
 #include "thin_lens_picture.h"
-#include "write_json.h"
+#include "report/write_json.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>

@@ -2,13 +2,14 @@
 //
 // Vignetting recovered from white patches and flat fields of a lens that is known.
 
-#include "bright_patches.h"
-#include "effects.h"
-#include "error.h"
-#include "measure.h"
+#include "measure/bright_patches.h"
+#include <tiltcal/photo.h>
+#include "effects/effects.h"
+#include <tiltcal/error.h>
+#include "measure/measure.h"
 #include "shaded_lens.h"
 #include "thin_lens_picture.h"
-#include "vignetting.h"
+#include "effects/vignetting.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

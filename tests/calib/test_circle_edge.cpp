@@ -2,7 +2,7 @@
 //
 // A curved edge's response against the blur disc and the pixel counted numerically.
 
-#include "circle_edge.h"
+#include "edge/circle_edge.h"
 
 #include <gtest/gtest.h>
 

@@ -2,10 +2,11 @@
 //
 // Grids of circles against pictures that are the mean of pinhole pictures (thin_lens_picture.h).
 
-#include "error.h"
-#include "find_circles.h"
-#include "measure_circles.h"
-#include "spread_order.h"
+#include <tiltcal/error.h>
+#include <tiltcal/photo.h>
+#include "measure/find_circles.h"
+#include "measure/measure_circles.h"
+#include "measure/spread_order.h"
 #include "thin_lens_picture.h"
 
 #include <gtest/gtest.h>

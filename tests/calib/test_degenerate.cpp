@@ -3,10 +3,11 @@
 // The hard cases of calibration (DESIGN.md section 3): solved, or refused with what to photograph instead, or with a
 // verdict that says so; never a confident wrong answer.
 
-#include "calibrate.h"
-#include "error.h"
+#include <tiltcal/calibrate.h>
+#include "model/priors.h"
+#include <tiltcal/error.h>
 #include "synthetic_lens.h"
-#include "verdict.h"
+#include "calibrate/verdict.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -3,11 +3,11 @@
 // Detection and blur measurement on a board painted analytically: every pixel is the
 // mean over sub-pixels, each moved over the points of a blur disc.
 
-#include "detect.h"
-#include "error.h"
-#include "calibrate.h"
-#include "image_io.h"
-#include "measure.h"
+#include "measure/detect.h"
+#include <tiltcal/error.h>
+#include <tiltcal/calibrate.h>
+#include "picture/image_io.h"
+#include "measure/measure.h"
 
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>

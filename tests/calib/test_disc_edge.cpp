@@ -2,7 +2,7 @@
 //
 // The disc's edge spread against the area of the disc counted numerically.
 
-#include "disc_edge.h"
+#include "edge/disc_edge.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 // The edge fit on edges that were rendered by scattering rays, which knows nothing of
 // the edge-spread formula.
 
-#include "edge_fit.h"
+#include "edge/edge_fit.h"
 
 #include <gtest/gtest.h>
 

@@ -2,22 +2,22 @@
 //
 // Chromatic aberration from the colours of edges; blades; what the writers make of the effects that are used.
 
-#include "calibrate.h"
-#include "camera_block.h"
-#include "chromatic_fit.h"
-#include "effects.h"
-#include "error.h"
-#include "files.h"
-#include "image_io.h"
-#include "fixed_blades.h"
-#include "measure.h"
-#include "measure_colours.h"
-#include "pose.h"
+#include <tiltcal/calibrate.h>
+#include "camera/camera_block.h"
+#include "effects/chromatic_fit.h"
+#include "effects/effects.h"
+#include <tiltcal/error.h>
+#include "base/files.h"
+#include "picture/image_io.h"
+#include "effects/fixed_blades.h"
+#include "measure/measure.h"
+#include "measure/measure_colours.h"
+#include "camera/pose.h"
 #include "shaded_lens.h"
 #include "thin_lens_picture.h"
-#include "vignetting.h"
-#include "write_inc.h"
-#include "write_json.h"
+#include "effects/vignetting.h"
+#include "camera/write_inc.h"
+#include "report/write_json.h"
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
-#include "error.h"
-#include "files.h"
-#include "write_csv.h"
+#include <tiltcal/error.h>
+#include "base/files.h"
+#include "report/write_csv.h"
 
 #include <gtest/gtest.h>
 

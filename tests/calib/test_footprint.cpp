@@ -2,8 +2,9 @@
 //
 // The width of the footprint against the paper's blur width, and where astigmatism shows.
 
-#include "footprint.h"
+#include "model/footprint.h"
 
+#include <tiltcal/photo.h>
 #include <gtest/gtest.h>
 
 #include <cmath>

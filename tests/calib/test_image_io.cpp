@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
-#include "error.h"
-#include "image_io.h"
+#include <tiltcal/error.h>
+#include "picture/image_io.h"
 
 #include <ImfArray.h>
 #include <ImfChannelList.h>

@@ -3,8 +3,8 @@
 // Are the sigmas true? The same lens and boards measured 200 times with seeded noise: the true values must lie inside
 // two sigma as often as for a normal distribution.
 
-#include "calibrate.h"
-#include "solve_joint.h"
+#include <tiltcal/calibrate.h>
+#include "solve/solve_joint.h"
 #include "synthetic_lens.h"
 
 #include <gtest/gtest.h>

@@ -2,8 +2,9 @@
 //
 // Cameras to OpenCV and back. The oracle is cv::projectPoints, with its own tilted sensor.
 
-#include "error.h"
-#include "opencv_yaml.h"
+#include <tiltcal/error.h>
+#include "model/projection.h"
+#include "camera/opencv_yaml.h"
 #include "posed_camera.h"
 
 #include <Eigen/LU>

@@ -2,11 +2,13 @@
 //
 // Every kind of picture that is read, what is refused, and EXIF.
 
-#include "error.h"
-#include "exif_check.h"
-#include "image_io.h"
-#include "measure.h"
-#include "picture_file.h"
+#include <tiltcal/error.h>
+#include "model/priors.h"
+#include <tiltcal/photo.h>
+#include "calibrate/exif_check.h"
+#include "picture/image_io.h"
+#include "measure/measure.h"
+#include "picture/picture_file.h"
 #include "picture_seeds.h"
 
 #include <gmock/gmock.h>

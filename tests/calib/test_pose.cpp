@@ -2,8 +2,8 @@
 //
 // Poses from points that cv::projectPoints put into the picture.
 
-#include "error.h"
-#include "pose.h"
+#include <tiltcal/error.h>
+#include "camera/pose.h"
 #include "posed_camera.h"
 
 #include <Eigen/Geometry>

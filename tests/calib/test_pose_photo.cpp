@@ -2,9 +2,9 @@
 //
 // Poses from points that are measured in a picture: a checkered floor, drawn by OpenCV's model of a tilted, distorted camera.
 
-#include "error.h"
-#include "find_crossing.h"
-#include "pose_photo.h"
+#include <tiltcal/error.h>
+#include "measure/find_crossing.h"
+#include "camera/pose_photo.h"
 #include "posed_camera.h"
 
 #include <gtest/gtest.h>

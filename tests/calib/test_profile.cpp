@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
-#include "error.h"
-#include "profile.h"
-#include "transfer.h"
+#include <tiltcal/error.h>
+#include "profile/profile.h"
+#include "base/transfer.h"
 
 #include <gtest/gtest.h>
 

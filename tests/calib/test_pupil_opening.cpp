@@ -2,7 +2,8 @@
 //
 // Area and centre of gravity of what discs have in common, against counting and against what is plain.
 
-#include "pupil_opening.h"
+#include "lens/optics.h"
+#include "effects/pupil_opening.h"
 
 #include <gtest/gtest.h>
 

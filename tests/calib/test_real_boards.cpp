@@ -3,11 +3,11 @@
 // Photographs of checkerboards and circles taken by others (../shared/data/real-boards, its README): skipped where they are absent.
 // TILTCAL_REAL_BOARDS names another folder.
 
-#include "calibrate.h"
-#include "detect.h"
-#include "image_io.h"
-#include "measure.h"
-#include "solve_geometry.h"
+#include <tiltcal/calibrate.h>
+#include "measure/detect.h"
+#include "picture/image_io.h"
+#include "measure/measure.h"
+#include "solve/solve_geometry.h"
 
 #include <gtest/gtest.h>
 #include <opencv2/calib3d.hpp>

@@ -2,11 +2,11 @@
 //
 // report.html of synthetic calibrations: well-formed, self-contained, complete, and the sketch against Merklinger's hinge rule.
 
-#include "calibrate.h"
-#include "html.h"
+#include <tiltcal/calibrate.h>
+#include "report/html.h"
 #include "page_check.h"
-#include "report_html.h"
-#include "report_scene.h"
+#include "report/report_html.h"
+#include "report/report_scene.h"
 #include "synthetic_lens.h"
 
 #include <gmock/gmock.h>

@@ -3,10 +3,10 @@
 // The whole solver on widths and corners built ray by ray (synthetic_lens.h), back to
 // the parameters they were built from.
 
-#include "calibrate.h"
-#include "error.h"
-#include "solve_blur.h"
-#include "solve_geometry.h"
+#include <tiltcal/calibrate.h>
+#include <tiltcal/error.h>
+#include "solve/solve_lens.h"
+#include "solve/solve_geometry.h"
 #include "synthetic_lens.h"
 
 #include <gmock/gmock.h>

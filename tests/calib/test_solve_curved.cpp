@@ -3,8 +3,8 @@
 // The curved model on lenses that have field curvature, and the choice of the model where
 // they have and where they have not.
 
-#include "calibrate.h"
-#include "solve_blur.h"
+#include <tiltcal/calibrate.h>
+#include "solve/solve_lens.h"
 #include "synthetic_lens.h"
 
 #include <gmock/gmock.h>

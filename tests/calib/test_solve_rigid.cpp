@@ -2,9 +2,9 @@
 //
 // The rigid model on lenses that are rigid, and on one that is not.
 
-#include "calibrate.h"
-#include "error.h"
-#include "solve_blur.h"
+#include <tiltcal/calibrate.h>
+#include <tiltcal/error.h>
+#include "solve/solve_lens.h"
 #include "synthetic_lens.h"
 
 #include <gmock/gmock.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
-#include "spread_order.h"
+#include "measure/spread_order.h"
 
 #include <gtest/gtest.h>
 

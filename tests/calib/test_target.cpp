@@ -3,9 +3,10 @@
 // Targets to print, measured on the page. Poppler (pdftocairo) reads the PDF; pdftoppm would
 // snap axis-parallel edges to whole pixels.
 
-#include "detect.h"
-#include "error.h"
-#include "target.h"
+#include "measure/detect.h"
+#include <tiltcal/photo.h>
+#include <tiltcal/error.h>
+#include "target/target.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

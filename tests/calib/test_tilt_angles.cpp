@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
-#include "tilt_angles.h"
+#include "model/tilt_angles.h"
 
 #include <gtest/gtest.h>
-#include <tilt_lens/optics.h>
+#include "lens/optics.h"
 
 #include <cmath>
 

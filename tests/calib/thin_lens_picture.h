@@ -7,7 +7,7 @@
 #ifndef TILTCAL_THIN_LENS_PICTURE_H
 #define TILTCAL_THIN_LENS_PICTURE_H
 
-#include "board.h"
+#include <tiltcal/board.h>
 
 #include <Eigen/Core>
 #include <opencv2/core.hpp>

@@ -8,10 +8,10 @@
 #include "damage.h"
 #include "picture_seeds.h"
 
-#include "error.h"
-#include "exif.h"
-#include "image_io.h"
-#include "measure.h"
+#include <tiltcal/error.h>
+#include "picture/exif.h"
+#include "picture/image_io.h"
+#include "measure/measure.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

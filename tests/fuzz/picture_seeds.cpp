@@ -2,6 +2,7 @@
 
 #include "picture_seeds.h"
 
+#include <tiltcal/photo.h>
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>

@@ -5,7 +5,7 @@
 #ifndef TILT_LENS_TESTS_PAPER_CASES_H
 #define TILT_LENS_TESTS_PAPER_CASES_H
 
-#include "vec3.h"
+#include "lens/vec3.h"
 
 namespace tilt_lens
 {

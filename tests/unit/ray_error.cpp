@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "optics.h"
+#include "lens/optics.h"
 #include "paper_cases.h"
 
 int main()

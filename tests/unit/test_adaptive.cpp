@@ -9,9 +9,9 @@
 
 #include <gtest/gtest.h>
 
-#include "adaptive.h"
-#include "convergence.h"
-#include "pilot.h"
+#include "lens/adaptive.h"
+#include "lens/convergence.h"
+#include "lens/pilot.h"
 
 using namespace tilt_lens;
 

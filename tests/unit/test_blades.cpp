@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "blades.h"
+#include "lens/blades.h"
 
 using namespace tilt_lens;
 

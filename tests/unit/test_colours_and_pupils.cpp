@@ -8,11 +8,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "chromatic.h"
-#include "effects.h"
-#include "lens_spec.h"
-#include "optics.h"
-#include "pupil_magnification.h"
+#include "lens/chromatic.h"
+#include "lens/effects.h"
+#include "lens/lens_spec.h"
+#include "lens/optics.h"
+#include "lens/pupil_magnification.h"
 
 using namespace tilt_lens;
 using testing::HasSubstr;

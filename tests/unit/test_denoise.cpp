@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include "denoise.h"
-#include "kernels.h"
+#include "lens/denoise.h"
+#include "lens/kernels.h"
 
 using namespace tilt_lens;
 

@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 #include <opencv2/calib3d.hpp>
 
-#include "distortion.h"
-#include "lens_spec.h"
+#include "lens/distortion.h"
+#include "lens/lens_spec.h"
 
 using namespace tilt_lens;
 

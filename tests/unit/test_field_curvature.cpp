@@ -9,10 +9,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "field_curvature.h"
-#include "lens_spec.h"
-#include "optics.h"
-#include "statistics.h"
+#include "lens/field_curvature.h"
+#include "lens/lens_spec.h"
+#include "lens/optics.h"
+#include "lens/statistics.h"
 
 using namespace tilt_lens;
 using testing::HasSubstr;

@@ -9,8 +9,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "lens_spec.h"
-#include "optics.h"
+#include "lens/lens_spec.h"
+#include "lens/optics.h"
 
 using namespace tilt_lens;
 using testing::HasSubstr;

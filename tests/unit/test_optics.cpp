@@ -12,7 +12,7 @@
 
 #include <gtest/gtest.h>
 
-#include "optics.h"
+#include "lens/optics.h"
 
 using namespace tilt_lens;
 

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "optics.h"
+#include "lens/optics.h"
 #include "paper_cases.h"
 
 using namespace tilt_lens;

@@ -7,9 +7,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "optics.h"
-#include "preview.h"
-#include "statistics.h"
+#include "lens/optics.h"
+#include "lens/preview.h"
+#include "lens/statistics.h"
 
 using namespace tilt_lens;
 using testing::HasSubstr;

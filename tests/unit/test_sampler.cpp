@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include "pupil.h"
-#include "sampler.h"
+#include "lens/pupil.h"
+#include "lens/sampler.h"
 
 using namespace tilt_lens;
 

@@ -2,13 +2,13 @@
 //
 // tiltcost's arithmetic, on pilots whose answers are known without it.
 
-#include "error.h"
+#include <tiltcal/error.h>
 #include "pilot_run.h"
 #include "prediction.h"
 #include "report.h"
 #include "search.h"
 
-#include "tilt_lens/pilot.h"
+#include "lens/pilot.h"
 
 #include <gmock/gmock.h>
 

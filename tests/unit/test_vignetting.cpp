@@ -8,10 +8,10 @@
 
 #include <gtest/gtest.h>
 
-#include "natural_vignetting.h"
-#include "optical_vignetting.h"
-#include "optics.h"
-#include "pupil.h"
+#include "lens/natural_vignetting.h"
+#include "lens/optical_vignetting.h"
+#include "lens/optics.h"
+#include "lens/pupil.h"
 
 using namespace tilt_lens;
 

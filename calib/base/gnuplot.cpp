@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "base/gnuplot.h"
+
+#include <tiltcal/error.h>
+#include "base/files.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <csignal>
+#include <cstdio>
+
+namespace tiltcal
+{
+
+std::string GnuplotString(const std::string& text)
+{
+	std::string quoted = "'";
+	for (const char c : text)
+		quoted += c == '\'' ? "''" : std::string(1, c);
+	return quoted + "'";
+}
+
+bool Plot(const std::string& file, const std::string& script, int width, int height)
+{
+	const bool svg = file.size() > 4 && file.compare(file.size() - 4, 4, ".svg") == 0;
+	try
+	{
+		WriteAtomically(file, [&](const std::string& temporary)
+		{
+			// A gnuplot that is not there closes the pipe at once.
+			const auto previous = std::signal(SIGPIPE, SIG_IGN);
+			FILE* pipe = popen("gnuplot 2>/dev/null >/dev/null", "w");
+			if (!pipe)
+				return false;
+			const std::string whole = fmt::format("set encoding utf8\nset terminal {} size {},{} font 'Sans,11' noenhanced\nset output {}\n{}\n",
+				svg ? "svg background 'white'" : "pngcairo", width, height, GnuplotString(temporary), script);
+			std::fwrite(whole.data(), 1, whole.size(), pipe);
+			const bool good = pclose(pipe) == 0;
+			std::signal(SIGPIPE, previous);
+			return good;
+		});
+		return true;
+	}
+	catch (const Error& e)
+	{
+		spdlog::warn("{}: not plotted; install gnuplot-nox for plots", file);
+		return false;
+	}
+}
+
+}

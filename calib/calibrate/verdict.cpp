@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "calibrate/verdict.h"
+
+#include "solve/blur_fit.h"
+#include <tiltcal/calibrate.h>
+#include "base/robust.h"
+#include "model/tilt_angles.h"
+
+#include <fmt/format.h>
+#include "lens/field_curvature.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tiltcal
+{
+
+namespace
+{
+
+class Judgement
+{
+public:
+	explicit Judgement(const Calibration& calibration) : c(calibration), observations(Observe(calibration.task, calibration.geometry)) {}
+
+	Verdict Everything()
+	{
+		ImageDistance();
+		for (size_t s = 0; s < c.solution.states.size(); ++s)
+		{
+			if (s > 0)
+				Tilt(s);
+			BothSides(s);
+			OnePhotograph(s);
+			Tellers(s);
+		}
+		Priors();
+		Correlations();
+		Limit();
+		return verdict;
+	}
+
+private:
+	void Say(Grade grade, const std::string& text)
+	{
+		verdict.remarks.push_back({ grade, text });
+		verdict.grade = std::max(verdict.grade, grade);
+	}
+
+	const std::string& NameOf(size_t s) const { return c.task.states[s].name; }
+
+	void ImageDistance()
+	{
+		const double relative = c.solution.w_mm.sigma / c.solution.w_mm.value;
+		if (relative > 0.003)
+			Say(relative > 0.01 ? Grade::POOR : Grade::FAIR, fmt::format("the image distance is known to {:.1f} % only: photograph the board inclined by "
+				"30 to 45 degrees in several directions, and filling the picture", 100 * relative));
+		for (size_t s = 0; s < c.geometry.principal_point_fixed.size(); ++s)
+			if (c.geometry.principal_point_fixed[s])
+				Say(Grade::FAIR, fmt::format("state {}: the principal point was taken to be the picture's centre: photograph the board in at least three poses", NameOf(s)));
+	}
+
+	void Tilt(size_t s)
+	{
+		const StateLens& lens = c.solution.states[s];
+		if (lens.lens_tilt.sigma > 0.03)
+			Say(lens.lens_tilt.sigma > 0.15 ? Grade::POOR : Grade::FAIR, fmt::format("state {}: the tilt is known to {:.2f} degrees only: photograph the board in more poses, "
+				"inclined so that it is sharp in one part and blurred in another", NameOf(s), lens.lens_tilt.sigma));
+		if (lens.chosen_by_power)
+			Say(Grade::POOR, fmt::format("state {}: two planes of focus fit the blur, and the one that keeps the focal length was taken: photograph more poses", NameOf(s)));
+	}
+
+	/// Blur does not show its sign: with one side of the focus only, focus and aperture hide behind each other.
+	void BothSides(size_t s)
+	{
+		int front = 0, all = 0;
+		for (const Observation& o : observations)
+		{
+			if (o.state != s)
+				continue;
+			const double kappa = tilt_lens::InverseFocusDistanceOnBowl(c.solution.states[s].q, c.solution.field_curvature.value, c.geometry.lens_normal[s], o.P);
+			front += kappa < 1;
+			++all;
+		}
+		const double share = all ? double(std::min(front, all - front)) / all : 0;
+		if (share < 0.05)
+			Say(share < 0.01 ? Grade::FAIR : Grade::GOOD, fmt::format("state {}: {:.0f} % of the edges lie on one side of the plane of focus: photograph boards that reach through it",
+				NameOf(s), 100 * (1 - share)));
+	}
+
+	void OnePhotograph(size_t s)
+	{
+		const LeftOut* worst = nullptr;
+		for (const LeftOut& l : c.solution.left_out)
+			if (l.state == s && (!worst || l.tilt_change > worst->tilt_change))
+				worst = &l;
+		if (s > 0 && !worst)
+			Say(Grade::FAIR, fmt::format("state {}: one photograph alone cannot be checked against others: photograph at least three poses", NameOf(s)));
+		if (s == 0 || !worst)
+			return;
+		const double sigma = c.solution.states[s].lens_tilt.sigma;
+		if (worst->tilt_change > std::max(4 * sigma, 0.05))
+			Say(worst->tilt_change > 0.3 ? Grade::POOR : Grade::FAIR, fmt::format("state {}: without {} the tilt changes by {:.2f} degrees: look at that photograph, and take more", NameOf(s),
+				c.task.states[s].photos[worst->photo].file, worst->tilt_change));
+	}
+
+	void Tellers(size_t s)
+	{
+		if (s == 0 || c.geometry_alone.states.size() <= s || c.blur_alone.size() <= s)
+			return;
+		const StateLens &blur = c.blur_alone[s], &geometry = c.geometry_alone.states[s];
+		const auto tilt = [](const StateLens& l) { return TiltVector(l.lens_tilt.value, l.tilt_direction.value); };
+		const double apart = (tilt(blur) - tilt(geometry)).norm();
+		const double sigma = std::hypot(blur.lens_tilt.sigma, geometry.lens_tilt.sigma);
+		if (apart > 3 * sigma && apart > 0.05)
+			Say(apart > 0.5 && apart > 5 * sigma ? Grade::POOR : Grade::FAIR, fmt::format("state {}: blur and geometry, each alone, disagree by {:.2f} degrees ({:.0f} sigma); blur decides. "
+				"Was the board moved between the states, or the camera?", NameOf(s), apart, apart / sigma));
+	}
+
+	void Priors()
+	{
+		const Solution& s = c.solution;
+		for (const Prior& prior : c.task.priors)
+		{
+			const double f = s.focal_length.value, d = s.aperture_diameter.value;
+			const double found = prior.quantity == Quantity::FOCAL_LENGTH ? f : prior.quantity == Quantity::F_NUMBER ? f / d : prior.quantity == Quantity::IMAGE_DISTANCE ? s.w_mm.value
+				: prior.quantity == Quantity::FOCUS_DISTANCE ? s.focus_distance.value : d;
+			const double pull = std::abs(found - prior.value) / std::max(prior.sigma, 1e-4 * prior.value);
+			if (pull > 3)
+				Say(pull > 6 ? Grade::POOR : Grade::FAIR, fmt::format("{} was given as {:.5g} +- {:.2g}, the photographs pull it to {:.5g}: are --square, --pitch and the value right?",
+					prior.Name(), prior.value, prior.sigma, found));
+		}
+	}
+
+	void Correlations()
+	{
+		for (const Correlation& r : c.solution.correlations)
+			if (std::abs(r.value) > 0.97)
+				Say(Grade::FAIR, fmt::format("{} and {} can hardly be told apart (correlation {:.3f}): their sum is known better than each", r.first, r.second, r.value));
+	}
+
+	void Limit()
+	{
+		std::vector<double> noise;
+		for (const State& state : c.task.states)
+			for (const Photo& photo : state.photos)
+				for (const Edge& e : photo.edges)
+					noise.push_back(e.blur_sigma);
+		if (noise.empty())
+			return;
+		const double typical = Median(std::move(noise));
+		if (c.solution.rms_blur > 3 * typical)
+			Say(Grade::GOOD, fmt::format("the blur fits to {:.2f} px, its noise is {:.2f} px: what limits the result are aberrations that the model {} does not have, and the sigmas hold them only "
+				"as far as they scatter", c.solution.rms_blur, typical, c.solution.model));
+	}
+
+	const Calibration& c;
+	const std::vector<Observation> observations;
+	Verdict verdict;
+};
+
+}
+
+Verdict Judge(const Calibration& calibration)
+{
+	if (calibration.solution.model == "paper")
+		return {};
+	return Judgement(calibration).Everything();
+}
+
+const char* Name(Grade grade)
+{
+	return grade == Grade::GOOD ? "good" : grade == Grade::FAIR ? "fair" : "poor";
+}
+
+}

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "camera/opencv_yaml.h"
+
+#include <tiltcal/error.h>
+#include "base/files.h"
+#include "model/tilt_angles.h"
+
+#include <Eigen/LU>
+#include <fmt/format.h>
+#include <opencv2/core.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+namespace tiltcal
+{
+
+namespace
+{
+
+using Eigen::Matrix3d;
+
+/// OpenCV's R(tauX, tauY): columns are its lens axes in the sensor's frame (y down).
+Matrix3d TauRotation(double tau_x, double tau_y)
+{
+	const double cx = std::cos(tau_x), sx = std::sin(tau_x), cy = std::cos(tau_y), sy = std::sin(tau_y);
+	Matrix3d rx, ry;
+	rx << 1, 0, 0, 0, cx, sx, 0, -sx, cx;
+	ry << cy, 0, -sy, 0, 1, 0, sy, 0, cy;
+	return ry * rx;
+}
+
+/// The same for the axes that Project distorts in (BasisOfLensPlane).
+Matrix3d LensAxes(const Vec3<double>& n)
+{
+	const tilt_lens::LensBasis<double> basis = tilt_lens::BasisOfLensPlane(n);
+	Matrix3d axes;
+	axes << basis.a.x, -basis.b.x, n.x,
+		-basis.a.y, basis.b.y, -n.y,
+		basis.a.z, -basis.b.z, n.z;
+	return axes;
+}
+
+/// The tangential terms are a vector in the lens plane, (p2, p1); `turn` takes its lens axes to others.
+Distortion Turned(const Distortion& d, const Matrix3d& turn)
+{
+	const Eigen::Vector2d t = turn.topLeftCorner<2, 2>() * Eigen::Vector2d(d[3], d[2]);
+	return { d[0], d[1], t[1], t[0], d[4] };
+}
+
+struct Tau
+{
+	double x, y;
+};
+
+Tau TauOfNormal(const Vec3<double>& n) { return { std::atan2(-n.y, std::hypot(n.x, n.z)), std::atan2(-n.x, n.z) }; }
+
+/// FileStorage takes the format from the suffix.
+void CheckSuffix(const std::string& option, const std::string& file)
+{
+	const std::string suffix = std::filesystem::path(file).extension().string();
+	if (suffix != ".yml" && suffix != ".yaml" && suffix != ".xml")
+		throw UsageError(fmt::format("{} {}: the suffix says the format: .yml, .yaml or .xml", option, file));
+}
+
+cv::Mat ReadMatrix(const cv::FileStorage& in, const std::string& file, const std::string& key, const char* shape)
+{
+	cv::Mat m;
+	try
+	{
+		in[key] >> m;
+	}
+	catch (const cv::Exception&)
+	{
+		m.release();
+	}
+	if (m.empty() || m.channels() != 1)
+		throw FileError(fmt::format("{}: {} is missing or no matrix (!!opencv-matrix) of {}; give the file that OpenCV's calibration sample writes", file, key, shape));
+	cv::Mat real;
+	m.convertTo(real, CV_64F);
+	if (!cv::checkRange(real))
+		throw FileError(fmt::format("{}: {} holds a number that is not finite", file, key));
+	return real;
+}
+
+int ReadSize(const cv::FileStorage& in, const std::string& file, const std::string& key)
+{
+	const cv::FileNode node = in[key];
+	if (!node.isInt() || int(node) < 1)
+		throw FileError(fmt::format("{}: {} is missing or no number of pixels; add it, such as '{}: 1800'", file, key, key));
+	return int(node);
+}
+
+void ReadCameraMatrix(const cv::Mat& K, const std::string& file, OpenCvCamera& c)
+{
+	if (K.rows != 3 || K.cols != 3)
+		throw FileError(fmt::format("{}: camera_matrix is {}x{}, not 3x3", file, K.rows, K.cols));
+	c.fx = K.at<double>(0, 0);
+	c.fy = K.at<double>(1, 1);
+	c.centre = { K.at<double>(0, 2), K.at<double>(1, 2) };
+	if (!(c.fx > 0 && c.fy > 0))
+		throw Refused(fmt::format("{}: camera_matrix has focal lengths {} and {}, not above 0", file, c.fx, c.fy));
+	if (K.at<double>(0, 1) != 0 || K.at<double>(1, 0) != 0 || K.at<double>(2, 0) != 0 || K.at<double>(2, 1) != 0 || K.at<double>(2, 2) != 1)
+		throw Refused(fmt::format("{}: camera_matrix is not [fx 0 cx; 0 fy cy; 0 0 1]: tilt_lens has no skew", file));
+	if (std::abs(c.fx / c.fy - 1) > 0.005)
+		throw Refused(fmt::format("{}: fx {:.2f} and fy {:.2f} differ by more than half a percent: tiltcal's pixels are square; calibrate with CALIB_FIX_ASPECT_RATIO",
+			file, c.fx, c.fy));
+}
+
+void ReadCoefficients(const cv::Mat& all, const std::string& file, OpenCvCamera& c)
+{
+	const char* const names[] = { "k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6", "s1", "s2", "s3", "s4", "tauX", "tauY" };
+	const cv::Mat d = all.reshape(1, 1);
+	const int n = d.cols;
+	if ((all.rows != 1 && all.cols != 1) || (n != 4 && n != 5 && n != 8 && n != 12 && n != 14))
+		throw FileError(fmt::format("{}: distortion_coefficients is {}x{}; OpenCV has 4, 5, 8, 12 or 14", file, all.rows, all.cols));
+	for (int k = 5; k < std::min(n, 12); ++k)
+		if (d.at<double>(k) != 0)
+			throw Refused(fmt::format("{}: distortion_coefficients has {} = {}: tilt_lens knows k1, k2, p1, p2, k3 and the tilt; "
+				"calibrate without CALIB_RATIONAL_MODEL and CALIB_THIN_PRISM_MODEL", file, names[k], d.at<double>(k)));
+	for (int k = 0; k < std::min(n, 5); ++k)
+		c.distortion[static_cast<size_t>(k)] = d.at<double>(k);
+	if (n == 14)
+	{
+		c.tau_x = d.at<double>(12);
+		c.tau_y = d.at<double>(13);
+		if (!(std::cos(c.tau_x) > 0 && std::cos(c.tau_y) > 0))
+			throw Refused(fmt::format("{}: tauX {} and tauY {} are not between -pi/2 and pi/2 (radians)", file, c.tau_x, c.tau_y));
+	}
+}
+
+}
+
+std::string LostInOpenCv()
+{
+	return "OpenCV's model has no blur: aperture, plane of focus, field curvature, the lens's own blur, sigmas and the poses are not in the file";
+}
+
+Matrix3d OpenCvFromCamera(const Vec3<double>& n)
+{
+	const Tau tau = TauOfNormal(n);
+	return TauRotation(tau.x, tau.y).transpose() * Eigen::Vector3d(1, -1, 1).asDiagonal();
+}
+
+OpenCvCamera ToOpenCv(const StateCamera& camera)
+{
+	const Vec3<double> n = camera.LensNormal();
+	const Tau tau = TauOfNormal(n);
+	const double f = camera.ImageDistancePx() / n.z;
+	return { f, f, { camera.principal_point[0] + f * n.x, camera.principal_point[1] - f * n.y },
+		Turned(camera.distortion, TauRotation(tau.x, tau.y).transpose() * LensAxes(n)), tau.x, tau.y };
+}
+
+void FromOpenCv(const OpenCvCamera& opencv, StateCamera& camera)
+{
+	const Matrix3d axes = TauRotation(opencv.tau_x, opencv.tau_y);
+	const Vec3<double> n{ axes(0, 2), -axes(1, 2), axes(2, 2) };
+	const double f = std::sqrt(opencv.fx * opencv.fy);
+	camera.image_distance_mm = f * n.z * camera.pitch_mm;
+	camera.principal_point = { opencv.centre[0] - f * n.x, opencv.centre[1] + f * n.y };
+	camera.distortion = Turned(opencv.distortion, LensAxes(n).transpose() * axes);
+	// Any plane will do that the lens images, such as the one at infinity: its angles are the lens's.
+	const double inverse_w = 1 / camera.image_distance_mm;
+	const TiltAngles angles = AnglesFromPlane(tilt_lens::PlaneFromLensTilt(n, inverse_w, 0.0), camera.image_distance_mm);
+	camera.lens_tilt_deg = angles.lens_tilt;
+	camera.tilt_direction_deg = angles.tilt_direction;
+	camera.focus_distance_mm = std::numeric_limits<double>::infinity();
+	camera.aperture_diameter_mm = 0;
+	camera.field_curvature_per_mm = 0;
+}
+
+void WriteOpenCv(const StateCamera& camera, const std::string& file)
+{
+	CheckSuffix("--opencv", file);
+	const OpenCvCamera c = ToOpenCv(camera);
+	const cv::Matx33d K(c.fx, 0, c.centre[0], 0, c.fy, c.centre[1], 0, 0, 1);
+	cv::Mat coefficients = cv::Mat::zeros(camera.IsTilted() ? 14 : 5, 1, CV_64F);
+	for (int k = 0; k < 5; ++k)
+		coefficients.at<double>(k) = c.distortion[static_cast<size_t>(k)];
+	if (camera.IsTilted())
+	{
+		coefficients.at<double>(12) = c.tau_x;
+		coefficients.at<double>(13) = c.tau_y;
+	}
+	const Matrix3d rotation = OpenCvFromCamera(camera.LensNormal());
+	cv::Matx33d frame;
+	for (int r = 0; r < 3; ++r)
+		for (int k = 0; k < 3; ++k)
+			frame(r, k) = rotation(r, k);
+	WriteAtomically(file, [&](const std::string& temporary)
+	{
+		cv::FileStorage out(temporary, cv::FileStorage::WRITE);
+		if (!out.isOpened())
+			return false;
+		const std::string state = fmt::format("State '{}', by tiltcal {}, model {}.", camera.state, TILTCAL_VERSION, camera.model);
+		for (const std::string& line : { state, LostInOpenCv() + ".",
+			std::string("The camera frame is the lens's (x right, y down, z along the lens axis): X_opencv = opencv_from_tiltcal X_tiltcal.") })
+			out.writeComment(line);
+		out << "image_width" << camera.width << "image_height" << camera.height << "camera_matrix" << cv::Mat(K)
+			<< "distortion_coefficients" << coefficients << "opencv_from_tiltcal" << cv::Mat(frame);
+		out.release();
+		return true;
+	});
+}
+
+StateCamera ReadOpenCv(const std::string& file, double pitch_mm, const std::string& state, double& lost_px)
+{
+	CheckSuffix("IN", file);
+	ReadText(file, "the YAML file of OpenCV's calibration");   // that it can be, in our words
+	OpenCvCamera c;
+	StateCamera camera;
+	try
+	{
+		const cv::FileStorage in(file, cv::FileStorage::READ);
+		if (!in.isOpened())
+			throw FileError(fmt::format("{}: cannot be read", file));
+		camera.width = ReadSize(in, file, "image_width");
+		camera.height = ReadSize(in, file, "image_height");
+		ReadCameraMatrix(ReadMatrix(in, file, "camera_matrix", "3x3"), file, c);
+		ReadCoefficients(ReadMatrix(in, file, "distortion_coefficients", "5x1 or 14x1"), file, c);
+	}
+	catch (const Error&)
+	{
+		throw;
+	}
+	catch (const cv::Exception& e)
+	{
+		throw FileError(fmt::format("{}: OpenCV cannot read it ({})", file, e.err));
+	}
+	catch (const std::exception& e)
+	{
+		throw FileError(fmt::format("{}: OpenCV cannot read it ({})", file, e.what()));
+	}
+	camera.pitch_mm = pitch_mm;
+	camera.model = "opencv";
+	FromOpenCv(c, camera);
+	camera.state = !state.empty() ? state : camera.IsTilted() ? "tilted" : "untilted";
+	// Half the difference of fx and fy acts on either side of the mean, in proportion to the distance from the centre.
+	const double reach = std::hypot(std::max(c.centre[0], camera.width - c.centre[0]), std::max(c.centre[1], camera.height - c.centre[1]));
+	lost_px = 0.5 * std::abs(c.fx / c.fy - 1) * reach;
+	return camera;
+}
+
+}

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "camera/state_camera.h"
+
+#include <tiltcal/error.h>
+#include "base/files.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include "lens/optical_vignetting.h"
+
+#include <cmath>
+#include <limits>
+
+namespace tiltcal
+{
+
+namespace
+{
+
+using Json = nlohmann::ordered_json;
+
+const double DEGREES = 180 / 3.14159265358979323846;
+const double INFINITY_MM = std::numeric_limits<double>::infinity();
+const char* const DISTORTION_NAMES[] = { "k1", "k2", "p1", "p2", "k3" };
+
+/// A value of the file that knows where it stands, for the errors.
+struct Node
+{
+	const Json* json;
+	std::string file, path;
+
+	[[noreturn]] void Fail(const std::string& what) const
+	{
+		throw FileError(fmt::format("{}: {} {}; give the calibration.json that tiltcal calibrate or import wrote", file, path, what));
+	}
+	Node operator[](const std::string& key) const
+	{
+		const std::string name = path.empty() ? key : path + "." + key;
+		if (!json->is_object() || !json->contains(key))
+			Node{ json, file, name }.Fail("is missing");
+		return { &(*json)[key], file, name };
+	}
+	Node At(size_t i) const { return { &(*json)[i], file, fmt::format("{}[{}]", path, i) }; }
+	void NeedList(size_t length) const
+	{
+		if (!json->is_array() || (length && json->size() != length))
+			Fail(length ? fmt::format("is no list of {} values", length) : "is no list");
+	}
+	std::string Text() const
+	{
+		if (!json->is_string())
+			Fail("is no text");
+		return json->get<std::string>();
+	}
+	double Number() const
+	{
+		if (!json->is_number())
+			Fail("is no number");
+		return json->get<double>();
+	}
+	/// calibration.json writes null for what is infinite or unknown.
+	double NumberOr(double otherwise) const { return json->is_null() ? otherwise : Number(); }
+	double Positive() const
+	{
+		const double x = Number();
+		if (!(x > 0))
+			Fail(fmt::format("is {}, not above 0", x));
+		return x;
+	}
+	bool Flag() const
+	{
+		if (!json->is_boolean())
+			Fail("is neither true nor false");
+		return json->get<bool>();
+	}
+	int Count() const
+	{
+		if (!json->is_number_integer() || json->get<long>() < 1 || json->get<long>() > 1000000)
+			Fail("is no number of pixels");
+		return json->get<int>();
+	}
+};
+
+Json Parse(const std::string& file)
+{
+	const std::string text = ReadText(file, "the calibration.json of tiltcal calibrate");
+	try
+	{
+		return Json::parse(text);
+	}
+	catch (const Json::exception& e)
+	{
+		throw FileError(fmt::format("{}: is not JSON ({})", file, e.what()));
+	}
+}
+
+/// The node of the state called `name`, or of the first.
+Node FindState(const Node& top, const std::string& name)
+{
+	const Node states = top["states"];
+	states.NeedList(0);
+	std::string names;
+	for (size_t i = 0; i < states.json->size(); ++i)
+	{
+		const Node state = states.At(i);
+		const std::string its_name = state["name"].Text();
+		if (name.empty() || its_name == name)
+			return state;
+		names += (i ? ", " : "") + its_name;
+	}
+	if (names.empty())
+		states.Fail("is empty");
+	throw UsageError(fmt::format("--state {}: {} has the states {}", name, top.file, names));
+}
+
+bool Used(const Node& effects, const std::string& name)
+{
+	for (size_t i = 0; i < effects.json->size(); ++i)
+		if (effects.At(i)["name"].Text() == name)
+			return effects.At(i)["used"].Flag();
+	return false;
+}
+
+std::array<double, 2> Pair(const Node& node, const char* first, const char* second) { return { node[first].Number(), node[second].Number() }; }
+
+/// Old files have the first one only.
+std::vector<std::array<double, 2>> ReadRims(const Node& optical)
+{
+	if (!optical.json->contains("rims"))
+		return { Pair(optical, "radius_mm", "distance_mm") };
+	const Node list = optical["rims"];
+	list.NeedList(0);
+	if (list.json->empty() || list.json->size() > size_t(tilt_lens::MostRims))
+		list.Fail(fmt::format("has {} rims, not 1 to {}", list.json->size(), tilt_lens::MostRims));
+	std::vector<std::array<double, 2>> rims;
+	for (size_t i = 0; i < list.json->size(); ++i)
+		rims.push_back(Pair(list.At(i), "radius_mm", "distance_mm"));
+	return rims;
+}
+
+/// What the list `effects` says is used. Files of import, and old ones, have none.
+void ReadEffects(const Node& top, StateCamera& c)
+{
+	if (!top.json->contains("effects"))
+		return;
+	const Node effects = top["effects"];
+	effects.NeedList(0);
+	c.natural_vignetting = Used(effects, "vignetting_natural");
+	if (Used(effects, "vignetting_optical"))
+		c.rims_mm = ReadRims(top["vignetting"]["optical"]);
+	if (Used(effects, "chromatic_lateral"))
+		c.lateral = Pair(top["chromatic"], "lateral_red", "lateral_blue");
+	if (Used(effects, "chromatic_axial"))
+		c.axial_per_mm = Pair(top["chromatic"], "axial_red_per_mm", "axial_blue_per_mm");
+	if (!Used(effects, "blades"))
+		return;
+	const Node blades = top["blades"];
+	c.blades = { blades["count"].Count(), blades["rotation_deg"].Number(), blades["curvature"].Number() };
+	c.aperture_diameter_mm = blades["aperture_diameter_mm"].Positive();
+}
+
+Json NumberOrNull(double x) { return std::isfinite(x) ? Json(x) : Json(); }
+
+}
+
+Vec3<double> StateCamera::LensNormal() const
+{
+	return tilt_lens::LensNormalFromTilt(lens_tilt_deg / DEGREES, tilt_direction_deg / DEGREES);
+}
+
+StateCamera ReadStateCamera(const std::string& file, const std::string& name)
+{
+	const Json json = Parse(file);
+	const Node top{ &json, file, "" };
+	const Node state = FindState(top, name);
+	StateCamera c;
+	c.state = state["name"].Text();
+	c.model = top["model"].Text();
+	const Node size = top["image_size_px"];
+	size.NeedList(2);
+	c.width = size.At(0).Count();
+	c.height = size.At(1).Count();
+	c.pitch_mm = top["pixel_pitch_mm"].Positive();
+	c.image_distance_mm = top["image_distance_mm"].Positive();
+	const Node centre = state["principal_point_px"];
+	centre.NeedList(2);
+	c.principal_point = { centre.At(0).Number(), centre.At(1).Number() };
+	for (size_t k = 0; k < 5; ++k)
+		c.distortion[k] = top["distortion"][DISTORTION_NAMES[k]].Number();
+	const Node tilt = state["lens_tilt_deg"];
+	c.lens_tilt_deg = tilt.Number();
+	if (!(std::abs(c.lens_tilt_deg) < 90))
+		tilt.Fail(fmt::format("is {}, not between -90 and 90", c.lens_tilt_deg));
+	c.tilt_direction_deg = state["tilt_direction_deg"].Number();
+	c.focus_distance_mm = state["focus_distance_mm"].NumberOr(INFINITY_MM);
+	c.aperture_diameter_mm = top["aperture_diameter_mm"].NumberOr(0);
+	c.field_curvature_per_mm = top["field_curvature_per_mm"].NumberOr(0);
+	ReadEffects(top, c);
+	return c;
+}
+
+std::string StateCameraJson(const StateCamera& c, const std::string& source)
+{
+	Json json;
+	json["model"] = c.model;
+	json["source"] = source;
+	json["image_distance_mm"] = c.image_distance_mm;
+	json["aperture_diameter_mm"] = c.aperture_diameter_mm > 0 ? Json(c.aperture_diameter_mm) : Json();
+	json["principal_point_px"] = c.principal_point;
+	for (size_t k = 0; k < 5; ++k)
+		json["distortion"][DISTORTION_NAMES[k]] = c.distortion[k];
+	json["distortion_axis"] = "lens axis";
+	json["field_curvature_per_mm"] = c.field_curvature_per_mm;
+	const Vec3<double> n = c.LensNormal();
+	json["states"] = { { { "name", c.state }, { "lens_tilt_deg", c.lens_tilt_deg }, { "tilt_direction_deg", c.tilt_direction_deg },
+		{ "lens_normal", { n.x, n.y, n.z } }, { "focus_distance_mm", NumberOrNull(c.focus_distance_mm) }, { "principal_point_px", c.principal_point } } };
+	json["image_size_px"] = { c.width, c.height };
+	json["pixel_pitch_mm"] = c.pitch_mm;
+	json["frames"] = "camera: x right, y up, z forward; pixel centres at integers, (0, 0) top left";
+	json["program"] = "tiltcal " TILTCAL_VERSION;
+	return json.dump(1, '\t') + "\n";
+}
+
+}

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "cli/commands.h"
+
+#include "model/priors.h"
+#include <tiltcal/calibrate.h>
+#include <tiltcal/error.h>
+#include "calibrate/exif_check.h"
+#include "base/files.h"
+#include "effects/fixed_blades.h"
+#include "report/write_report.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <cctype>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <set>
+
+namespace tiltcal
+{
+
+namespace
+{
+
+struct Options
+{
+	std::string board, target = "checkerboard", transfer = "srgb", model = "auto", poses = "auto", refine = "edges", effects = "auto", out;
+	double square = 0, circle_diameter = 0;
+	std::optional<double> pitch;
+	std::vector<std::string> untilted, tilted, fix, prior, flat_field;
+	DetectOptions detect;
+	EdgeChoice edges;
+};
+
+/// Six edges of each direction reach all quarters of the board (test_spread_order.cpp).
+const int FEWEST_EDGES = 12;
+
+/// NAME becomes part of POV-Ray identifiers and of file names.
+void CheckName(const std::string& name, const std::string& option)
+{
+	bool good = !name.empty() && !std::isdigit(static_cast<unsigned char>(name[0]));
+	for (const char c : name)
+		good = good && (std::isalnum(static_cast<unsigned char>(c)) || c == '_');
+	if (!good)
+		throw UsageError(fmt::format("--tilted {}: give NAME='GLOB', NAME of letters, digits and _ and not beginning with a digit, such as plus5='plus5-*.png'", option));
+}
+
+std::vector<StateFiles> States(const Options& o)
+{
+	std::vector<StateFiles> states{ { "untilted", ExpandGlobs(o.untilted, "--untilted") } };
+	std::set<std::string> names{ "untilted" };
+	for (const std::string& option : o.tilted)
+	{
+		const size_t equals = option.find('=');
+		CheckName(equals == std::string::npos ? "" : option.substr(0, equals), option);
+		const std::string name = option.substr(0, equals);
+		if (!names.insert(name).second)
+			throw UsageError(fmt::format("--tilted {}: the name '{}' is already taken; give every state its own", option, name));
+		states.push_back({ name, ExpandGlobs({ option.substr(equals + 1) }, "--tilted " + name) });
+	}
+	return states;
+}
+
+struct FieldFile
+{
+	size_t state;
+	std::string file;
+};
+
+/// --flat-field NAME=FILE, FILE a name or a pattern.
+std::vector<FieldFile> FlatFields(const Options& o, const std::vector<StateFiles>& states)
+{
+	std::vector<FieldFile> fields;
+	for (const std::string& option : o.flat_field)
+	{
+		const size_t equals = option.find('=');
+		const std::string name = option.substr(0, equals);
+		std::string names;
+		size_t state = states.size();
+		for (size_t s = 0; s < states.size(); ++s)
+		{
+			names += (s ? ", " : "") + states[s].name;
+			state = states[s].name == name ? s : state;
+		}
+		if (equals == std::string::npos || state == states.size())
+			throw UsageError(fmt::format("--flat-field {}: give NAME=FILE, NAME one of the states {}", option, names));
+		for (const std::string& file : ExpandGlobs({ option.substr(equals + 1) }, "--flat-field " + name))
+			fields.push_back({ state, file });
+	}
+	return fields;
+}
+
+std::vector<std::string> AllFiles(const std::vector<StateFiles>& states)
+{
+	std::vector<std::string> files;
+	for (const StateFiles& s : states)
+		files.insert(files.end(), s.files.begin(), s.files.end());
+	return files;
+}
+
+void CheckModel(const std::string& model)
+{
+	if (model != "auto" && model != "curved" && model != "plane" && model != "rigid" && model != "paper")
+		throw UsageError(fmt::format("--model {}: there is auto, curved (exact, with field curvature), plane (exact), rigid (exact, ideal mount) and paper", model));
+}
+
+Poses ParsePoses(const std::string& text)
+{
+	if (text == "auto")
+		return Poses::AUTO;
+	if (text == "shared")
+		return Poses::SHARED;
+	if (text == "own")
+		return Poses::OWN;
+	throw UsageError(fmt::format("--poses {}: give auto, shared or own", text));
+}
+
+Refinement ParseRefinement(const std::string& text)
+{
+	if (text == "none")
+		return Refinement::NONE;
+	if (text == "edges")
+		return Refinement::EDGES;
+	if (text == "photometric")
+		return Refinement::PHOTOMETRIC;
+	throw UsageError(fmt::format("--refine {}: give none, edges or photometric", text));
+}
+
+/// A wrong --fix makes the photographs contradict themselves, which reads like a lack of photographs.
+Calibration CalibrateWithPriors(const Task& task, bool priors_from_exif_alone, const std::string& model, Poses poses, Refinement refinement, const EffectChoice& effects)
+{
+	try
+	{
+		return Calibrate(task, model, poses, refinement, effects);
+	}
+	catch (const Error& e)
+	{
+		if (e.Code() != EXIT_REFUSED || task.priors.empty())
+			throw;
+		throw Refused(fmt::format("{}; or what {} is wrong: {}", e.what(), priors_from_exif_alone ? "the photographs' EXIF says of the lens" : "--fix or --prior says",
+			priors_from_exif_alone ? "give --prior focal_length=.. and --prior f_number=.. yourself" : "try without"));
+	}
+}
+
+void Run(const Options& o)
+{
+	const auto start = std::chrono::steady_clock::now();
+	const Board board = MakeBoard(ParseTargetKind(o.target, "--target"), o.board, o.square, o.circle_diameter, "--target");
+	const Transfer transfer = ParseTransfer(o.transfer);
+	CheckModel(o.model);
+	const Poses poses = ParsePoses(o.poses);
+	const Refinement refinement = ParseRefinement(o.refine);
+	const EffectChoice effects = ParseEffects(o.effects);
+	if (o.pitch)
+		CheckPitch(*o.pitch);
+	if (o.edges.most != 0 && o.edges.most < FEWEST_EDGES)
+		throw UsageError(fmt::format("--edges-per-photo {}: give 0 for all edges, or at least {}", o.edges.most, FEWEST_EDGES));
+	const std::vector<StateFiles> states = States(o);
+	std::vector<Prior> priors;
+	FixedBlades blades;
+	for (const std::string& text : o.fix)
+		if (!TakeBlades(text, blades))
+			priors.push_back(ParseFix(text));
+	CheckBlades(blades);
+	for (const std::string& text : o.prior)
+		priors.push_back(ParsePrior(text));
+	const double pitch = o.pitch ? *o.pitch : PitchFromExif(AllFiles(states));
+	const std::vector<FieldFile> fields = FlatFields(o, states);
+	PrepareFolder(o.out);
+
+	Task task = MeasureAll(states, board, pitch, transfer, o.detect, o.edges);
+	task.priors = priors;
+	task.blades = blades;
+	for (const FieldFile& field : fields)
+		AddFlatField(task, field.state, field.file, transfer);
+	for (const Prior& prior : PriorsFromExif(task, priors))
+	{
+		spdlog::info("EXIF says {} {:g}: taken as known to 10 %", prior.Name(), prior.value);
+		task.priors.push_back(prior);
+	}
+	const Calibration c = CalibrateWithPriors(task, priors.empty(), o.model, poses, refinement, effects);
+	for (const std::string& words : CompareWithExif(c))
+		spdlog::warn("{}", words);
+	WriteEverything(c, transfer, o.out, o.refine);
+	fmt::print("{}", SummaryTable(c));
+	fmt::print("written to {}\n", o.out);
+	spdlog::info("done in {:.1f} s", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+}
+
+}
+
+void AddCalibrate(CLI::App& app)
+{
+	auto o = std::make_shared<Options>();
+	CLI::App* c = app.add_subcommand("calibrate", "Photographs of a checkerboard or a grid of circles in, camera blocks for tilt_lens out.");
+	c->add_option("--board", o->board, "Squares of the board, columns x rows, such as 12x9 (squares, not inner corners); of the other targets circles")->required();
+	c->add_option("--target", o->target, "checkerboard, circles or asymmetric-circles, as tiltcal target --kind prints them")->capture_default_str();
+	c->add_option("--square", o->square, "Side of a square, or spacing of circles, mm; asymmetric: distance of rows, half that of the circles in a row")->required();
+	c->add_option("--circle-diameter", o->circle_diameter, "Diameter of a circle, mm; 0: half the distance of neighbouring centres. A little more or less does no "
+		"harm: it is measured in every photograph")->capture_default_str();
+	c->add_option("--pitch", o->pitch, "Distance of pixel centres on the sensor, mm; needed unless EXIF says it (FocalPlaneXResolution)");
+	c->add_option("--untilted", o->untilted, "Photographs with the lens untilted: names or quoted patterns")->required();
+	c->add_option("--tilted", o->tilted, "NAME='GLOB': photographs of one tilted state; may be repeated");
+	c->add_option("--model", o->model, "auto: curved where photographs left out show field curvature, else plane; curved: plane and a common field curvature; "
+		"plane: exact, free plane of focus per state; rigid: exact, the lens only turns and keeps f and w; "
+		"paper: Baba, Nakane, Hiura (3), (4), (1)")->capture_default_str();
+	c->add_option("--transfer", o->transfer, "Transfer curve of 8 and 16 bit pictures: srgb, linear or a gamma; OpenEXR is linear")->capture_default_str();
+	c->add_option("--poses", o->poses, "shared: photograph n shows the board in one pose in every state; own: not; auto: see for itself")->capture_default_str();
+	c->add_option("--refine", o->refine, "Last step, all numbers together: edges: places and blur widths of the edges; photometric: the brightness across them; "
+		"none: geometry first, then blur")->capture_default_str();
+	c->add_option("--fix", o->fix, "NAME=VALUE: what is known exactly: focal_length, f_number, image_distance, focus_distance, aperture_diameter "
+		"(mm; untilted); blades (their number), blade_rotation (degrees, of a corner: 0 up, 90 right), blade_curvature (0 straight to 1 round); may be repeated");
+	c->add_option("--prior", o->prior, "NAME=VALUE:SIGMA: what is known about; the same names; may be repeated");
+	c->add_option("--flat-field", o->flat_field, "NAME=FILE: photograph of an evenly lit plain surface in the state NAME (untilted included); may be repeated. "
+		"Vignetting is then told by these instead of the board's white squares");
+	c->add_option("--effects", o->effects, "What the camera blocks simulate: auto: what is significant and foretells photographs left out better; all: all that can be estimated; "
+		"none; or some of distortion, field_curvature, vignetting_natural, vignetting_optical, chromatic_lateral, chromatic_axial, blades, separated by commas: exactly these")->capture_default_str();
+	c->add_option("--edges-per-photo", o->edges.most, "Measure only N edges of every photograph, spread evenly over the board and both directions: "
+		"faster, less accurate. 0: all")->capture_default_str();
+	c->add_flag("--any-orientation", o->detect.any_orientation, "Accept a board that stands upside down (a mirrored picture looks the same)");
+	c->add_option("--out", o->out, "Folder for calibration.json, camera-<state>.inc, overlays, report.txt and report.html (all on one page); created if missing")->required();
+	c->footer("Example:\n  tiltcal calibrate --board 12x9 --square 25 --pitch 0.02 --untilted 'target/untilted-*.png' \\\n"
+		"      --tilted plus5='target/plus5-*.png' --tilted minus5='target/minus5-*.png' --out calibration\n\n"
+		"Photograph the board inclined by 20 to 45 degrees in several directions, with parts before and\n"
+		"behind the plane of focus. Lengths are mm, angles degrees, picture measures pixels.\n"
+		"Circles, dark on white or white on dark, must be larger than their blur: its radius may be 0.6 of theirs. Circles look the same turned\n"
+		"by 180 degrees, as many columns as rows by 90: the picture's top left circle is the first. Asymmetric grids need an odd number of rows.\n"
+		"Exit codes: 0 done, 1 refused or not converged, 2 wrong usage, 3 unreadable or unwritable file.");
+	c->callback([o] { Run(*o); });
+}
+
+}

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "effects/effects.h"
+
+#include <tiltcal/calibrate.h>
+#include <tiltcal/error.h>
+#include "effects/fixed_blades.h"
+#include "solve/held_out_corners.h"
+#include "base/robust.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tiltcal
+{
+
+namespace
+{
+
+const char* const NAMES[] = { "distortion", "field_curvature", "vignetting_natural", "vignetting_optical", "chromatic_lateral", "chromatic_axial", "blades" };
+
+/// Below this an effect is not told from noise.
+const double SIGNIFICANT = 2;
+
+const double NOT_KNOWN = std::numeric_limits<double>::quiet_NaN();
+
+std::string NameList()
+{
+	std::string list;
+	for (const char* const name : NAMES)
+		list += fmt::format("{}{}", list.empty() ? "" : ", ", name);
+	return list;
+}
+
+double Sigmas(const Estimate& e) { return e.sigma > 0 ? std::abs(e.value) / e.sigma : 0; }
+
+double SigmasOfBoth(const std::array<Estimate, 2>& e) { return SigmasOfTwo(std::pow(Sigmas(e[0]), 2) + std::pow(Sigmas(e[1]), 2)); }
+
+Effect DistortionOf(const Calibration& c, const EffectChoice& choice)
+{
+	const Geometry& g = c.MainGeometry();
+	Effect e;
+	e.unit = "px, places of corners left out";
+	if (c.solution.model == "paper")
+		e.failure = "the paper's model has no effects";
+	else if (choice.Excludes("distortion"))
+		e.failure = "the lens was solved without it";
+	else if (g.distortion_terms == 0)
+		e.failure = "no coefficient is significant and lowers the reprojection error";
+	if (!e.failure.empty())
+		return e;
+	const char* const names[] = { "k1", "k2", "p1", "p2", "k3" };
+	for (size_t k = 0; k < 5; ++k)
+		if (g.distortion_sigma[k] > 0)
+		{
+			e.values.emplace_back(names[k], Estimate{ g.distortion[k], g.distortion_sigma[k] });
+			e.sigmas = std::max(e.sigmas, Sigmas(e.values.back().second));
+		}
+	e.held_out_without = CornersLeftOut(c.task, { 0, g.lens_normal, g.shared_poses });
+	e.held_out_with = CornersLeftOut(c.task, { g.distortion_terms, g.lens_normal, g.shared_poses });
+	return e;
+}
+
+Effect CurvatureOf(const Calibration& c, const EffectChoice& choice)
+{
+	Effect e;
+	e.unit = "px, blur of photographs left out";
+	const auto find = [&](const char* model) { return std::find_if(c.compared.begin(), c.compared.end(), [&](const Solution& s) { return s.model == model; }); };
+	const auto plane = find("plane"), curved = find("curved");
+	e.held_out_without = plane == c.compared.end() ? 0 : plane->held_out_px;
+	e.held_out_with = curved == c.compared.end() ? c.solution.held_out_px : curved->held_out_px;
+	if (c.solution.model == "curved")
+		e.values.emplace_back("C per mm", c.solution.field_curvature);
+	else if (c.solution.model == "paper")
+		e.failure = "the paper's model has no effects";
+	else if (choice.Excludes("field_curvature"))
+		e.failure = "the lens was solved without it";
+	else if (curved == c.compared.end())
+		e.failure = fmt::format("--model {} has none", c.solution.model);
+	else if (!curved->failure.empty())
+		e.failure = curved->failure;
+	else
+		e.values.emplace_back("C per mm", curved->field_curvature);
+	if (!e.values.empty())
+		e.sigmas = Sigmas(e.values[0].second);
+	return e;
+}
+
+std::string SecondRimText(const SecondRim& second)
+{
+	if (second.why.empty())
+		return "";
+	std::string text = fmt::format("second rim {}: {}", second.used ? "written" : "not written", second.why);
+	if (second.held_out_with > 0)
+		text += fmt::format("; {:.1f} sigma; error {:.4g} without, {:.4g} with it (sigmas of brightness and places of edges, photographs left out)", second.sigmas, second.held_out_without, second.held_out_with);
+	return text;
+}
+
+/// One kind of vignetting, with or without the other beside it.
+Effect VignettingOf(const Calibration& c, bool optical, bool beside)
+{
+	const Vignetting& v = c.vignetting;
+	Effect e;
+	e.unit = v.flat_field ? "share of the light, flat fields left out" : "share of the light, photographs left out";
+	e.failure = v.failure;
+	const FalloffAnswer& with = v.answers[optical ? FalloffKind(beside, true) : FalloffKind(true, beside)];
+	const FalloffAnswer& without = v.answers[optical ? FalloffKind(beside, false) : FalloffKind(false, beside)];
+	e.held_out_without = without.held_out;
+	e.held_out_with = with.held_out;
+	if (e.failure.empty() && (!with.fitted || !without.fitted))
+		e.failure = "the fit of the brightness did not converge";
+	e.sigmas = optical ? with.rim_sigmas : NOT_KNOWN;
+	if (e.failure.empty() && optical && !with.rim_seen)
+		e.failure = "no patch is darker than without a rim";
+	if (!optical || !e.failure.empty())
+		return e;
+	for (size_t k = 0; k < with.rims.size(); ++k)
+	{
+		e.values.emplace_back(k ? fmt::format("R{} mm", k + 1) : "R mm", with.rims[k].radius_mm);
+		e.values.emplace_back(k ? fmt::format("Z{} mm", k + 1) : "Z mm", with.rims[k].distance_mm);
+	}
+	e.values.emplace_back("darkening at most", with.darkening);
+	e.note = SecondRimText(with.second);
+	return e;
+}
+
+/// One kind of chromatic aberration, of red and of blue, and how edges left out are foretold.
+Effect ChromaticOf(const Calibration& c, const char* letter, const char* per, const char* unit, const std::array<Estimate, 2>& values, double held_out_without, double held_out_with)
+{
+	Effect e;
+	e.unit = unit;
+	e.failure = c.chromatic.failure;
+	e.values = { { fmt::format("{} red{}", letter, per), values[0] }, { fmt::format("{} blue{}", letter, per), values[1] } };
+	e.sigmas = SigmasOfBoth(values);
+	e.held_out_without = held_out_without;
+	e.held_out_with = held_out_with;
+	return e;
+}
+
+Effect BladesOf(const Calibration& c)
+{
+	Effect e;
+	e.sigmas = NOT_KNOWN;
+	if (c.task.blades.count == 0)
+		e.failure = "photographs of edges do not tell them: give --fix blades=N";
+	else
+		e.values = { { "blades", { double(c.task.blades.count), 0 } }, { "rotation deg", { c.task.blades.rotation_deg, 0 } }, { "curvature", { c.task.blades.curvature, 0 } } };
+	return e;
+}
+
+/// What speaks against the effect; empty when nothing does.
+std::string Against(const Effect& e)
+{
+	if (!e.failure.empty())
+		return e.failure;
+	if (e.name == "blades")
+		return "";
+	if (e.sigmas < SIGNIFICANT)
+		return fmt::format("{:.1f} sigma: not significant", e.sigmas);
+	if (!(e.held_out_with > 0) || !(e.held_out_without > 0))
+		return e.name == "field_curvature" ? "" : "nothing can be left out to be foretold: photograph more";
+	if (!(e.held_out_with < e.held_out_without))
+		return "what was left out is not foretold better with it";
+	return "";
+}
+
+/// Sets used and why. Throws Refused where the choice names what could not be estimated.
+void Decide(const EffectChoice& choice, Effect& e)
+{
+	const std::string against = Against(e);
+	if (choice.kind == EffectChoice::AUTO)
+	{
+		e.used = against.empty();
+		e.why = !against.empty() ? against : e.name == "blades" ? "given by --fix" : "significant, and foretells better";
+		return;
+	}
+	e.used = choice.Wants(e.name) && e.failure.empty();
+	e.why = choice.Excludes(e.name) ? "not in --effects" : !e.failure.empty() ? e.failure : against.empty() ? "asked for by --effects" : "asked for by --effects, although: " + against;
+	if (choice.kind == EffectChoice::LIST && choice.Wants(e.name) && !e.failure.empty())
+		throw Refused(fmt::format("--effects: {} could not be estimated: {}", e.name, e.failure));
+}
+
+/// The models have been compared already (CurvatureIsSeen, which wants 1 %), or one was asked for.
+void DecideCurvature(const EffectChoice& choice, const Calibration& c, Effect& e)
+{
+	Decide(choice, e);
+	e.used = c.solution.model == "curved";
+	if (choice.kind == EffectChoice::AUTO && e.used && c.compared.empty())
+		e.why = "asked for by --model curved";
+	else if (choice.kind == EffectChoice::AUTO && !e.used && Against(e).empty())
+		e.why = "foretells hardly better";
+}
+
+Effect Named(Effect e, const char* name)
+{
+	e.name = name;
+	return e;
+}
+
+/// Both kinds of vignetting, each judged beside the other where that is used.
+void DecideVignetting(const EffectChoice& choice, Calibration& c)
+{
+	Effect natural = Named(VignettingOf(c, false, true), NAMES[2]), optical = Named(VignettingOf(c, true, true), NAMES[3]);
+	Decide(choice, optical);
+	if (!optical.used)
+		natural = Named(VignettingOf(c, false, false), NAMES[2]);
+	Decide(choice, natural);
+	if (!natural.used)
+	{
+		optical = Named(VignettingOf(c, true, false), NAMES[3]);
+		Decide(choice, optical);
+	}
+	c.effects.push_back(natural);
+	c.effects.push_back(optical);
+}
+
+std::string ValueText(const Effect& e)
+{
+	std::string out;
+	for (const auto& [name, value] : e.values)
+		out += fmt::format("{}{} {:.4g}{}", out.empty() ? "" : ", ", name, value.value, value.sigma > 0 ? fmt::format(" +- {:.2g}", value.sigma) : "");
+	return out.empty() || !e.failure.empty() ? "-" : out;
+}
+
+}
+
+EffectChoice ParseEffects(const std::string& text)
+{
+	EffectChoice choice;
+	if (text == "auto" || text == "all")
+	{
+		choice.kind = text == "all" ? EffectChoice::ALL : EffectChoice::AUTO;
+		return choice;
+	}
+	choice.kind = EffectChoice::LIST;
+	if (text == "none")
+		return choice;
+	for (size_t at = 0; at <= text.size();)
+	{
+		const size_t comma = std::min(text.find(',', at), text.size());
+		const std::string name = text.substr(at, comma - at);
+		if (std::find(std::begin(NAMES), std::end(NAMES), name) == std::end(NAMES))
+			throw UsageError(fmt::format("--effects {}: there is no '{}'; give auto, all, none, or some of {}, separated by commas", text, name, NameList()));
+		choice.names.insert(name);
+		at = comma + 1;
+	}
+	return choice;
+}
+
+void ChooseEffects(const EffectChoice& choice, Calibration& c)
+{
+	c.effects = { Named(DistortionOf(c, choice), NAMES[0]), Named(CurvatureOf(c, choice), NAMES[1]) };
+	Decide(choice, c.effects[0]);
+	DecideCurvature(choice, c, c.effects[1]);
+	DecideVignetting(choice, c);
+	const Chromatic& chromatic = c.chromatic;
+	const Effect lateral = ChromaticOf(c, "C", "", "px, shift of edges of photographs left out", chromatic.lateral,
+		chromatic.lateral_held_out_without, chromatic.lateral_held_out_with);
+	const Effect axial = ChromaticOf(c, "A", " per mm", "px, difference in blur of edges of photographs left out", chromatic.axial_per_mm,
+		chromatic.axial_held_out_without, chromatic.axial_held_out_with);
+	for (Effect e : { Named(lateral, NAMES[4]), Named(axial, NAMES[5]), Named(BladesOf(c), NAMES[6]) })
+	{
+		Decide(choice, e);
+		c.effects.push_back(e);
+	}
+}
+
+bool Uses(const Calibration& c, const std::string& name)
+{
+	return std::any_of(c.effects.begin(), c.effects.end(), [&](const Effect& e) { return e.name == name && e.used; });
+}
+
+const FalloffAnswer& FalloffOf(const Calibration& c)
+{
+	const bool natural = Uses(c, NAMES[2]), optical = Uses(c, NAMES[3]);
+	return c.vignetting.answers[natural || optical ? FalloffKind(natural, optical) : FalloffKind(true, true)];
+}
+
+const FalloffAnswer& RimOf(const Calibration& c)
+{
+	return Uses(c, NAMES[3]) ? FalloffOf(c) : c.vignetting.answers[FalloffKind(true, true)];
+}
+
+std::string EffectsText(const Calibration& c)
+{
+	std::string out = "\neffects:\n";
+	for (const Effect& e : c.effects)
+	{
+		out += fmt::format("  {:<19} {:<11} {}\n", e.name, e.used ? "written" : "not written", e.why);
+		if (e.failure.empty() && !e.values.empty())
+			out += fmt::format("  {:<19} {}{}\n", "", ValueText(e), std::isfinite(e.sigmas) && e.sigmas > 0 ? fmt::format(": {:.1f} sigma", e.sigmas) : "");
+		if (e.failure.empty() && e.held_out_with > 0)
+			out += fmt::format("  {:<19} error {:.4g} without, {:.4g} with it ({})\n", "", e.held_out_without, e.held_out_with, e.unit);
+		if (!e.note.empty())
+			out += fmt::format("  {:<19} {}\n", "", e.note);
+	}
+	return out;
+}
+
+}

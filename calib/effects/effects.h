@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// Which of tilt_lens's effects a calibration writes into its camera blocks: those that the photographs show, or those asked for.
+
+#ifndef TILTCAL_EFFECTS_H
+#define TILTCAL_EFFECTS_H
+
+#include <tiltcal/calibration.h>
+
+#include <set>
+#include <string>
+
+namespace tiltcal
+{
+
+/// --effects.
+struct EffectChoice
+{
+	enum Kind
+	{
+		AUTO,    ///< significant at 2 sigma, and photographs left out are foretold better
+		ALL,     ///< all that can be estimated
+		LIST     ///< exactly `names`, which may be none
+	} kind = AUTO;
+	std::set<std::string> names;
+
+	/// Named, or one of all.
+	bool Wants(const std::string& name) const { return kind == ALL || (kind == LIST && names.count(name) > 0); }
+	/// Not to be written whatever the photographs say.
+	bool Excludes(const std::string& name) const { return kind == LIST && names.count(name) == 0; }
+};
+
+/// "auto", "all", "none" or names separated by commas. Throws UsageError, which lists the names.
+EffectChoice ParseEffects(const std::string& text);
+
+/// Fills calibration.effects, one for every name, from what else it holds. Throws Refused where a name of the list could not be
+/// estimated, saying why.
+void ChooseEffects(const EffectChoice& choice, Calibration& calibration);
+
+/// Whether it is written. False for the paper's model.
+bool Uses(const Calibration& calibration, const std::string& name);
+
+/// The answer whose numbers are written, or, when none is, that of both kinds of vignetting.
+const FalloffAnswer& FalloffOf(const Calibration& calibration);
+
+/// The answer that tells the rim: FalloffOf, or where no rim is written that of both kinds of vignetting.
+const FalloffAnswer& RimOf(const Calibration& calibration);
+
+/// One row per effect, for people: what, value, significance, held out without and with, written or not and why.
+std::string EffectsText(const Calibration& calibration);
+
+}
+
+#endif

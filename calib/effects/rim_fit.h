@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// The least squares of several rims: the brightness of evenly bright patches (falloff_fit.h) and the places of blurred edges
+// (edge_shift.h) together. Exposure, lighting, and what the boards' poses can do to edges are projected out of the residuals,
+// so that the rims' numbers are the only unknowns.
+
+#ifndef TILTCAL_RIM_FIT_H
+#define TILTCAL_RIM_FIT_H
+
+#include "effects/edge_shift.h"
+#include "effects/falloff_fit.h"
+
+#include <limits>
+
+namespace tiltcal
+{
+
+using Rims = std::vector<tilt_lens::Rim>;
+
+class RimFit
+{
+public:
+	/// No group is left out.
+	static constexpr size_t NONE = std::numeric_limits<size_t>::max();
+
+	/// `light`: its samples, lens, natural fall-off and gradients are taken; its model_sigma to begin with. `light_group`: of
+	/// each sample, what is left out with it. `first_edge_group`: that of photograph 0's edges; n's is the n-th after it.
+	RimFit(const FalloffFit& light, std::vector<size_t> light_group, std::vector<EdgeShift> edges, size_t first_edge_group);
+
+	/// Fits in place, each rim's sign of the distance kept, without one group. Returns the cost, half the sum of squares beyond
+	/// which residuals of 3 sigma count linearly; 1e300 without convergence.
+	double Minimise(Rims& rims, size_t left_out = NONE, int iterations = 30) const;
+
+	/// From several starts: `start` and, where `distance_sign` is not 0, one more rim on that side of the lens, from a grid. The
+	/// standard deviations of both kinds of residuals become what is left over. False: no convergence.
+	bool Search(Rims& rims, int distance_sign, double focal_length);
+
+	/// Twice the cost.
+	double ChiSquared(const Rims& rims) const;
+
+	/// Mean of the squared residuals, in sigmas and as the fit counts them, of one group alone, with a lighting of its own.
+	/// `count`: how many there are.
+	double MeanOfGroup(const Rims& rims, size_t group, size_t& count) const;
+
+	/// Covariance of (log R, log |Z|) of all rims in turn, rescaled by the residuals. False: singular.
+	bool Covariance(const Rims& rims, Eigen::MatrixXd& covariance) const;
+
+	size_t Groups() const { return groups_; }
+	size_t Residuals() const { return light_.samples.size() + edges_.size(); }
+
+private:
+	enum class Part { WITHOUT, ONLY };
+	struct Block;
+	std::vector<Block> Blocks(Part part, size_t group) const;
+	Eigen::VectorXd Evaluate(const std::vector<Block>& blocks, const Rims& rims) const;
+	double Solve(const std::vector<Block>& blocks, Rims& rims, int iterations) const;
+	void LearnSigmas(const Rims& rims);
+
+	FalloffFit light_;
+	std::vector<size_t> light_group_;
+	std::vector<EdgeShift> edges_;
+	size_t first_edge_group_, groups_;
+	double edge_sigma_ = 0.05;   ///< px, what the model leaves out of an edge's place
+};
+
+}
+
+#endif

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// What a calibration finds. Lengths mm, angles degrees, pictures
+// pixels; frames of frames.h. Sigmas are one standard deviation, from the covariance of
+// the fit rescaled by its residuals: they hold the noise, not what the model leaves out.
+
+#ifndef TILTCAL_CALIBRATION_H
+#define TILTCAL_CALIBRATION_H
+
+#include <tiltcal/frames.h>
+#include <tiltcal/task.h>
+
+#include <array>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tiltcal
+{
+
+/// An estimate and its standard deviation.
+struct Estimate
+{
+	double value = 0, sigma = 0;
+};
+
+/// Where the boards and the sensor are. Indices: state, then photo.
+struct Geometry
+{
+	double w_px = 0, w_px_sigma = 0;
+	int distortion_terms = 0;      ///< 0 none, 1 k1, 2 k1 k2, 4 with p1 p2, 5 with k3
+	std::vector<Vec3<double>> lens_normal;         ///< the axis of the distortion, given
+	bool shared_poses = false;     ///< photograph n of every state shows the board in one pose
+	/// Where the lens centre of a state stands, seen from the untilted one, camera frame, mm: a real lens turns
+	/// about a pivot away from its pupil. Free where poses are shared (joint_fit.h), else 0. `poses` hold it already.
+	std::vector<Vec3<double>> lens_centre, lens_centre_sigma;
+	double pupil_magnification = 1, pupil_magnification_sigma = 0;   ///< camera.h; 1 in all that is rendered
+	Distortion distortion{}, distortion_sigma{};
+	std::vector<bool> principal_point_fixed;
+	std::vector<Point> principal_point, principal_point_sigma;
+	std::vector<std::vector<Pose>> poses, pose_sigmas;
+	std::vector<std::vector<double>> photo_rms;    ///< reprojection, px: sqrt(mean(dx^2 + dy^2))
+	double rms = 0;
+};
+
+/// The lens in one state.
+struct StateLens
+{
+	bool converged = true;
+	bool chosen_by_power = false;   ///< the blur fits two planes; the one that keeps f was taken
+	Vec3<double> q{ 0, 0, 0 }, q_sigma{ 0, 0, 0 };   ///< plane of focus, 1/mm
+	Estimate lens_tilt, focal_plane_tilt, tilt_direction, focus_distance, focal_length;
+	double rms_blur = 0;     ///< px, measured against predicted
+	int edges = 0;
+};
+
+/// Of two estimates of a fit, by their names in calibration.json.
+struct Correlation
+{
+	std::string first, second;
+	double value = 0;
+};
+
+/// What a fit without one photograph finds for that photograph's state, and how well it foretells it.
+struct LeftOut
+{
+	size_t state = 0, photo = 0;
+	double tilt_change = 0;   ///< length of the change of the tilt vector, degrees
+	double rms_blur = 0;      ///< of the photograph that was left out, px
+};
+
+/// Which numbers give a state's surface of focus (model/lens_model.h).
+enum class LensModel
+{
+	PLANE,   ///< q itself, free in every tilted state
+	BOWL,    ///< as PLANE, and the common field curvature C
+	BOWLS,   ///< as PLANE, and a tangential and a sagittal field curvature
+	RIGID    ///< the lens turns about its centre and keeps f and w: q = n/f - e_z/w
+};
+
+/// One model's answer.
+struct Solution
+{
+	std::string model;
+	LensModel lens = LensModel::PLANE;    ///< of the exact models
+	Estimate w_mm, aperture_diameter, focus_distance, focal_length, psf_floor_px;
+	std::vector<StateLens> states;
+	double rms_blur = 0;
+	Estimate field_curvature;             ///< C, 1/mm; the mean of the two below
+	Estimate tangential_curvature, sagittal_curvature;
+	double held_out_px = 0;  ///< held_out.h; 0 when it was not asked for or cannot be had
+	std::vector<Correlation> correlations;   ///< of every pair of w, d, U and C, and of each with the tilts
+	std::vector<LeftOut> left_out;   ///< held_out.h: each photograph in turn
+	std::string failure;     ///< why there is no answer; empty when there is one
+};
+
+/// What the places of edges say of the tilts (solve_joint.h); no states: nothing.
+struct GeometryAlone
+{
+	std::vector<StateLens> states;
+	Estimate pupil_magnification;
+};
+
+/// Of one patch: the angle between its direction and the lens axis, and the light that is left of it, exposure and gradient of the
+/// lighting taken out.
+struct FalloffPoint
+{
+	size_t state = 0;
+	double angle_deg = 0, measured = 0, model = 0;
+};
+
+/// The exposure of a photograph, or of a flat field with `photo` its index in Task::flat_fields: the white's value on the lens axis.
+struct FalloffGain
+{
+	size_t state = 0, photo = 0;
+	double gain = 0;
+};
+
+/// One rim of optical vignetting; at a distance < 0 it is behind the lens.
+struct RimEstimate
+{
+	Estimate radius_mm, distance_mm;
+};
+
+/// Whether there are two rims (second_rim.h).
+struct SecondRim
+{
+	bool used = false;
+	std::string why;                     ///< empty: it was not asked
+	double sigmas = 0;                   ///< of what its two numbers do to the fit
+	double held_out_without = 0, held_out_with = 0;   ///< RMS of brightness and places of edges left out, in sigmas; 0: not known
+};
+
+/// What a fit with some of the two kinds of vignetting finds (vignetting.h).
+struct FalloffAnswer
+{
+	bool fitted = false;
+	bool rim_seen = false;               ///< without it the rim cuts nothing, and its numbers are 0
+	Estimate radius_mm, distance_mm;     ///< of the rim, the first of two
+	std::vector<RimEstimate> rims;       ///< all of them, that one first
+	SecondRim second;
+	Estimate darkening;                  ///< what the rims take of the patch that they darken most, 0..1
+	/// Of that darkening, and of what one rim's two numbers do to the fit, the smaller one.
+	double rim_sigmas = 0;
+	double rms = 0, held_out = 0;        ///< of the logarithm of the brightness; 0: there is nothing to leave out
+	std::vector<FalloffGain> gains;
+	std::vector<FalloffPoint> points;
+};
+
+/// Index of Vignetting::answers.
+inline size_t FalloffKind(bool natural, bool optical) { return (natural ? 1u : 0u) + (optical ? 2u : 0u); }
+
+struct Vignetting
+{
+	std::string failure;      ///< why nothing can be said; empty when something can
+	bool flat_field = false;  ///< told by flat fields, not by the board
+	std::array<FalloffAnswer, 4> answers;   ///< by FalloffKind
+};
+
+/// What the colours of edges tell of chromatic aberration (chromatic_fit.h): index 0 red, 1 blue, each against green.
+struct Chromatic
+{
+	std::string failure;      ///< why nothing can be said; empty when something can
+	int edges = 0;
+	std::array<Estimate, 2> lateral;         ///< C_R, C_B of tilt_lens/chromatic.h
+	std::array<Estimate, 2> axial_per_mm;    ///< A_R, A_B
+	double lateral_held_out_without = 0, lateral_held_out_with = 0;   ///< of an edge's shift, px; 0: there is nothing to leave out
+	double axial_held_out_without = 0, axial_held_out_with = 0;       ///< of an edge's difference in blur width, px
+};
+
+/// An effect of tilt_lens, and whether the camera blocks name it.
+struct Effect
+{
+	std::string name;                        ///< as in --effects
+	std::string failure;                     ///< why it was not estimated; empty when it was
+	bool used = false;
+	std::string why;                         ///< it is written or not
+	std::vector<std::pair<std::string, Estimate>> values;   ///< what a person would ask for
+	double sigmas = 0;                       ///< how many standard deviations it is from nothing; NaN: it has no number of its own
+	double held_out_without = 0, held_out_with = 0;   ///< 0: not known
+	std::string unit;                        ///< of the latter
+	std::string note;                        ///< more to say; may be empty
+};
+
+struct Calibration
+{
+	Task task;
+	Geometry geometry;           ///< the best one: with distortion where it is significant
+	Geometry pinhole;            ///< without distortion, for a renderer that has none
+	Solution solution;           ///< of the model asked for, with `geometry`
+	Solution render;             ///< the same model with `pinhole`: the numbers of the .inc
+	std::vector<StateLens> blur_alone;      ///< the same before the joint refinement: blur, with the geometry held
+	GeometryAlone geometry_alone;
+	std::vector<Solution> compared;   ///< CompareExact's, when the model was to be chosen; else empty
+	Solution paper;              ///< the paper's model, always
+	Geometry paper_geometry;     ///< poses of the paper's stage 1
+	Vignetting vignetting;
+	Chromatic chromatic;
+	std::vector<Effect> effects;   ///< effects.h; empty before they are chosen
+
+	/// Geometry that belongs to the calibration's own solution (the paper has its own).
+	const Geometry& MainGeometry() const { return solution.model == "paper" ? paper_geometry : geometry; }
+
+	/// The camera that the .inc holds: without distortion.
+	const Geometry& RenderGeometry() const { return solution.model == "paper" ? paper_geometry : pinhole; }
+};
+
+}
+
+#endif

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// What goes into a calibration. Lengths mm, angles degrees, pictures pixels.
+
+#ifndef TILTCAL_TASK_H
+#define TILTCAL_TASK_H
+
+#include <tiltcal/board.h>
+#include <tiltcal/photo.h>
+
+#include <string>
+#include <vector>
+
+namespace tiltcal
+{
+
+/// The photographs of one setting of the lens. State 0 is the untilted one.
+struct State
+{
+	std::string name;
+	bool tilted = false;
+	std::vector<Photo> photos;
+};
+
+/// A photograph of an evenly lit plain surface (bright_patches.h).
+struct FlatField
+{
+	size_t state = 0;
+	std::string file;
+	std::vector<BrightPatch> patches;
+};
+
+/// The opening's blades (tilt_lens/blades.h).
+struct FixedBlades
+{
+	int count = 0;                 ///< 0: not known
+	double rotation_deg = 0, curvature = 0;
+};
+
+enum class Quantity
+{
+	FOCAL_LENGTH,        ///< f untilted, mm
+	F_NUMBER,            ///< f/d
+	IMAGE_DISTANCE,      ///< w, mm
+	FOCUS_DISTANCE,      ///< U untilted, mm
+	APERTURE_DIAMETER    ///< d, mm
+};
+
+/// A quantity is `value` give or take `sigma` (one standard deviation); the same units. A fixed one has a sigma of
+/// 1e-6 of itself.
+struct Prior
+{
+	Quantity quantity;
+	double value, sigma;
+
+	std::string Name() const;   ///< as on the command line
+};
+
+struct Task
+{
+	Board board;
+	double pitch_mm = 0;           ///< distance of pixel centres on the sensor
+	int width = 0, height = 0;
+	std::vector<State> states;     ///< untilted first
+	std::vector<Prior> priors;     ///< what is known beforehand
+	std::vector<FlatField> flat_fields;
+	FixedBlades blades;            ///< told by --fix; nothing measures them
+};
+
+}
+
+#endif

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// What the photographer knows of the lens beforehand: --fix and --prior.
+
+#ifndef TILTCAL_PRIORS_H
+#define TILTCAL_PRIORS_H
+
+#include <tiltcal/task.h>
+
+#include <string>
+
+namespace tiltcal
+{
+
+/// "focal_length=45" for --fix, "f_number=2.8:0.1" for --prior. Throws UsageError.
+Prior ParseFix(const std::string& text);
+Prior ParsePrior(const std::string& text);
+
+}
+
+#endif

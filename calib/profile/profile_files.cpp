@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// The files of `tiltcal profile`: CSV, plot, pictures side by side.
+
+#include "profile/profile.h"
+
+#include "base/files.h"
+#include "base/gnuplot.h"
+#include "picture/image_io.h"
+
+#include <fmt/format.h>
+#include <opencv2/imgproc.hpp>
+
+namespace tiltcal
+{
+
+namespace
+{
+
+/// As in the paper: first line red, second green; then on.
+const struct { const char* name; int r, g, b; } COLOURS[] = {
+	{ "red", 214, 39, 40 }, { "green", 30, 150, 60 }, { "blue", 40, 100, 220 }, { "orange", 240, 140, 20 }, { "violet", 140, 70, 190 }
+};
+const size_t COLOUR_COUNT = sizeof(COLOURS) / sizeof(COLOURS[0]);
+
+std::string CsvName(const std::string& folder, size_t k) { return Join(folder, fmt::format("profile-{}.csv", k + 1)); }
+
+std::string Csv(const LineProfile& p)
+{
+	std::string csv = "position_px,x_px,y_px,a,b\n";
+	for (const ProfileSample& s : p.samples)
+		csv += fmt::format("{:.3f},{:.3f},{:.3f},{:.4f},{:.4f}\n", s.position, s.x, s.y, s.a, s.b);
+	return csv;
+}
+
+void PlotProfiles(const Comparison& c, const std::string& folder)
+{
+	std::string script = fmt::format("set datafile separator ','\nset multiplot layout {},1\nset yrange [0:260]\nset ylabel 'brightness'\n"
+		"set grid lc rgb '#dddddd'\nset key bottom right horizontal\nset lmargin 8\n", c.lines.size());
+	for (size_t k = 0; k < c.lines.size(); ++k)
+	{
+		const auto& colour = COLOURS[k % COLOUR_COUNT];
+		const std::string file = GnuplotString(CsvName(folder, k));
+		script += fmt::format("set title {}\nset xlabel 'position on the line [px]'\n"
+			"plot {} every ::1 using 1:4 with lines lw 2 lc rgb '#{:02x}{:02x}{:02x}' title 'A', {} every ::1 using 1:5 with lines lw 1.2 lc rgb '#202020' title 'B, matched'\n",
+			GnuplotString(fmt::format("{} line {}: mean absolute error {:.2f}", colour.name, c.lines[k].line.text, c.lines[k].mean_abs_error)),
+			file, colour.r, colour.g, colour.b, file);
+	}
+	script += "unset multiplot\n";
+	Plot(Join(folder, "profile.png"), script, 1100, 80 + 330 * static_cast<int>(c.lines.size()));
+}
+
+cv::Mat WithLines(const cv::Mat& linear, const Comparison& c)
+{
+	cv::Mat picture;
+	cv::Mat display = ToDisplay(linear);
+	if (display.channels() == 1)
+		cv::cvtColor(display, picture, cv::COLOR_GRAY2BGR);
+	else
+		picture = display;
+	const int thickness = std::max(1, picture.cols / 600);
+	for (size_t k = 0; k < c.lines.size(); ++k)
+	{
+		const Line& l = c.lines[k].line;
+		const auto& colour = COLOURS[k % COLOUR_COUNT];
+		cv::line(picture, cv::Point(cvRound(l.x0), cvRound(l.y0)), cv::Point(cvRound(l.x1), cvRound(l.y1)),
+			cv::Scalar(colour.b, colour.g, colour.r), thickness, cv::LINE_AA);
+	}
+	return picture;
+}
+
+}
+
+void WriteComparison(const Comparison& c, const cv::Mat& a, const std::string& folder)
+{
+	for (size_t k = 0; k < c.lines.size(); ++k)
+		WriteText(CsvName(folder, k), Csv(c.lines[k]));
+	if (!c.lines.empty())
+		PlotProfiles(c, folder);
+	cv::Mat both;
+	const cv::Mat gap(a.rows, std::max(4, a.cols / 100), CV_8UC3, cv::Scalar::all(255));
+	cv::hconcat(std::vector<cv::Mat>{ WithLines(Luminance(a), c), gap, WithLines(c.matched, c) }, both);
+	WritePng(Join(folder, "side-by-side.png"), both);
+}
+
+}

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "report/report_html.h"
+
+#include <tiltcal/calibrate.h>
+#include "effects/effects.h"
+#include "base/files.h"
+#include "report/html.h"
+#include "report/report_maps.h"
+#include "report/report_scene.h"
+#include "report/report_tables.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <ctime>
+#include <fstream>
+
+namespace tiltcal
+{
+
+namespace
+{
+
+using html::Escape;
+
+const char* const HEAD = R"(<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8"/><meta name="viewport" content="width=device-width"/><title>tiltcal: calibration of a tilted lens</title>
+<style>
+body { font: 15px/1.5 "Helvetica Neue", Arial, sans-serif; color: #222; max-width: 1180px; margin: 0 auto; padding: 0 20px 60px }
+h1 { font-size: 26px; margin: 24px 0 4px } h2 { font-size: 21px; margin: 40px 0 8px; border-bottom: 2px solid #1565c0 } h3 { font-size: 17px; margin: 22px 0 6px }
+p { max-width: 860px } code { background: #f2f2f2; padding: 1px 4px; overflow-wrap: anywhere } pre { background: #f2f2f2; padding: 10px; white-space: pre-wrap; overflow-wrap: anywhere }
+.wide { overflow-x: auto; margin: 10px 0 16px }
+table { border-collapse: collapse; font-size: 14px } th, td { padding: 4px 10px; border-bottom: 1px solid #ddd; text-align: right; vertical-align: top }
+td { font-variant-numeric: tabular-nums } th { font-weight: 600; background: #f6f6f6 } th:first-child { text-align: left } tr:first-child th { vertical-align: bottom }
+.common td:last-child, .common th:last-child, .run td { text-align: left } .files th:first-child { min-width: 150px; overflow-wrap: anywhere }
+.effects td:last-child, .effects th:last-child, .effects td:nth-child(6) { text-align: left; min-width: 150px }
+.correlation td { text-align: center; min-width: 44px; border: 1px solid #fff } .correlation td.none { background: #f4f4f4 }
+.verdict { border-left: 8px solid #888; background: #f2f2f2; padding: 10px 16px; margin: 14px 0; font-size: 16px } .verdict ul { margin: 6px 0 0; padding-left: 20px; font-size: 14px }
+.verdict.good { border-color: #2e7d32; background: #e8f5e9 } .verdict.fair { border-color: #f9a825; background: #fff8e1 } .verdict.poor { border-color: #c62828; background: #ffebee }
+svg text { font: 13px "Helvetica Neue", Arial, sans-serif; paint-order: stroke; stroke: #fff; stroke-width: 3px; stroke-linejoin: round }
+svg text.title { font-size: 15px; font-weight: 600 } svg text.strong { font-weight: 600 } svg text.number { font-size: 15px; font-weight: 700 }
+.sketch, .map { fill: #222 } .sketch { width: 100%; height: auto } .map { width: 100%; height: auto }
+.pair { display: grid; grid-template-columns: 1fr 1fr; gap: 20px } .pair h4 { margin: 6px 0 4px; font-size: 14px }
+.photos { display: grid; grid-template-columns: repeat(auto-fill, minmax(480px, 1fr)); gap: 14px } figure { margin: 0 } figcaption { font-size: 13px; overflow-wrap: anywhere }
+.photos img { width: 100%; display: block; cursor: zoom-in } .photos input { position: absolute; opacity: 0 }
+.photos input:focus-visible + img { outline: 3px solid #1565c0 }
+figure:has(input:checked) { grid-column: 1 / -1 } figure:has(input:checked) img { cursor: zoom-out }
+.key span { margin-right: 18px; white-space: nowrap } small { color: #555 }
+@media print { h2 { break-before: page } figure, svg { break-inside: avoid } }
+</style></head><body>
+)";
+
+std::string Quoted(const std::string& word)
+{
+	const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
+	if (!word.empty() && word.find_first_not_of(plain) == std::string::npos)
+		return word;
+	std::string out = "'";
+	for (const char c : word)
+		out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+	return out + "'";
+}
+
+std::string CommandLine()
+{
+	std::ifstream in("/proc/self/cmdline", std::ios::binary);
+	std::string word, out;
+	while (std::getline(in, word, '\0'))
+		out += (out.empty() ? "" : " ") + Quoted(out.empty() ? BaseName(word) : word);
+	return out;
+}
+
+/// Photographs by state: "untilted 6, plus5 6".
+std::string Counts(const Task& task)
+{
+	size_t all = 0;
+	std::string each;
+	for (const State& state : task.states)
+	{
+		all += state.photos.size();
+		each += (each.empty() ? "" : ", ") + Escape(state.name) + " " + std::to_string(state.photos.size());
+	}
+	return fmt::format("{} ({})", all, each);
+}
+
+std::string ModelText(const std::string& model)
+{
+	return model + (model == "curved" ? ": exact, with field curvature" : model == "plane" ? ": exact, a free plane of focus in every state"
+		: model == "rigid" ? ": exact, the lens only turns" : model == "paper" ? ": Baba, Nakane, Hiura (3), (4), (1)" : "");
+}
+
+std::string Summary(const Calibration& c, const RunNotes& notes)
+{
+	const Task& task = c.task;
+	std::string out = "<h1>Calibration of a tilted lens</h1>\n";
+	std::vector<std::vector<std::string>> rows{ { "run", "" } };
+	rows.push_back({ "photographs", Counts(task) });
+	rows.push_back({ "picture", fmt::format("{} × {} px, pitch {:g} mm: a sensor of {:.2f} × {:.2f} mm", task.width, task.height, task.pitch_mm, task.width * task.pitch_mm, task.height * task.pitch_mm) });
+	rows.push_back({ "board", fmt::format("{} × {} squares of {:g} mm; its poses are {} the states", task.board.columns, task.board.rows, task.board.square_mm,
+		c.MainGeometry().shared_poses ? "shared by" : "free in all") });
+	rows.push_back({ "model", Escape(ModelText(c.solution.model)) });
+	rows.push_back({ "refinement", c.solution.model == "paper" ? "none" : Escape(notes.refinement) });
+	rows.push_back({ "program", "tiltcal " TILTCAL_VERSION ", " + Escape(notes.date) });
+	if (!notes.command_line.empty())
+		rows.push_back({ "command", "<code>" + Escape(notes.command_line) + "</code>" });
+	out += VerdictBox(c) + "<div class=\"run\">" + html::Table(rows) + "</div>\n";
+	return out + "<h3>Numbers</h3>\n" + NumbersTables(c) + "<p><small>± is one standard deviation; f-number: those of f and d taken as independent. Directions: 0° up, 90° right. Pixel centres lie at integers, (0, 0) top left.</small></p>\n";
+}
+
+std::string Tilt(const Calibration& c)
+{
+	std::string out = "<h2>Tilt, models, photographs</h2>\n";
+	const std::string tellers = TellersTable(c), models = ModelsTable(c);
+	out += c.task.states.size() < 2 ? "<p>No tilted state was photographed.</p>\n" : tellers;
+	if (!models.empty())
+		out += "<h3>Models</h3>\n<p>Each model was fitted without one photograph after the other and asked for that photograph's blur. The difference of an edge counts up to a bound, so that one bad edge does not decide.</p>\n" + models;
+	return out + "<h3>Photographs</h3>\n" + PhotographsTable(c) + "<p><small>Blur misfit counts every edge in full. The last two columns are of fits without the photograph; there the difference of an edge counts up to a bound only, so that the last column may be the smaller one.</small></p>\n";
+}
+
+std::string Effects(const Calibration& c)
+{
+	const std::string table = EffectsTable(c);
+	if (table.empty())
+		return "";
+	std::string out = "<h2>Effects</h2>\n<p>What the camera blocks simulate. A scene pays only for what is written.</p>\n" + table;
+	if (!c.vignetting.failure.empty())
+		return out;
+	out += "<h3>Fall-off of the light</h3>\n<p>Each dot is an evenly bright patch, its exposure and the gradient of its lighting taken out; the ring is what the model says of it. Patches at one angle differ "
+		"where rims cut a lens that is tilted or focused obliquely.</p>\n<div class=\"pair\">\n";
+	for (size_t s = 0; s < c.task.states.size(); ++s)
+	{
+		const std::string plot = FalloffPlot(c, s);
+		if (!plot.empty())
+			out += "<div><h4>" + Escape(c.task.states[s].name) + "</h4>\n" + plot + "</div>\n";
+	}
+	return out + "</div>\n<p><small>" + fmt::format("The model leaves {:.2f} % RMS over.", 100 * FalloffOf(c).rms) + "</small></p>\n";
+}
+
+std::string Sketches(const Calibration& c)
+{
+	std::string out = "<h2>Camera, boards and plane of focus</h2>\n<p>To scale, in millimetres, in the camera's frame: origin at the lens centre, x right, y up, z forward. "
+		"Boards are numbered and coloured by photograph. Blue: the surface of focus inside the picture; dashed: the plane that touches it on the lens axis.</p>\n";
+	for (size_t s = 0; s < c.task.states.size(); ++s)
+		out += "<h3>" + Escape(c.task.states[s].name) + "</h3>\n" + SceneSvg(c, s);
+	return out;
+}
+
+std::string PhotoKey(const State& state)
+{
+	std::string out = "<p class=\"key\">";
+	for (size_t p = 0; p < state.photos.size(); ++p)
+		out += fmt::format("<span><i style=\"color:{}\">■</i> {} {}</span> ", html::PhotoColour(p), p + 1, Escape(BaseName(state.photos[p].file)));
+	return out + "</p>\n";
+}
+
+std::string Residuals(const Calibration& c)
+{
+	std::string out = "<h2>What the model leaves over</h2>\n<p>Noise has no pattern. Arrows that turn or spread, and strokes whose colour changes with their place or their direction, are aberrations that the model does not have.</p>\n";
+	for (size_t s = 0; s < c.task.states.size(); ++s)
+	{
+		out += "<h3>" + Escape(c.task.states[s].name) + "</h3>\n" + PhotoKey(c.task.states[s]);
+		out += "<div class=\"pair\">\n<div><h4>Blur width of every edge</h4>" + BlurPlot(c, s) + "</div>\n<div><h4>Corners: reprojected − measured</h4>" + CornerMap(c, s) + "</div>\n";
+		out += "<div><h4>Blur of edges across the radius (tangential focus): measured − predicted</h4>" + BlurMap(c, s, true) + "</div>\n"
+			"<div><h4>Blur of edges along the radius (sagittal focus): measured − predicted</h4>" + BlurMap(c, s, false) + "</div>\n</div>\n";
+	}
+	return out;
+}
+
+std::string Overlays(const Calibration& c, const ReportPictures& pictures)
+{
+	std::string out = "<h2>Photographs with what was measured and predicted</h2>\n<p class=\"key\"><span>green cross: measured corner</span><span>magenta: its error, 20 times as long</span>"
+		"<span>thick ring: measured blur disc (yellow as predicted, red larger, blue smaller)</span><span>thin blue ring: predicted</span></p>\n<p><small>Click a picture to enlarge it, and again to shrink it. "
+		"The full pictures are the files <code>overlay-STATE-N.png</code> beside this page.</small></p>\n";
+	size_t n = 0;
+	for (const State& state : c.task.states)
+	{
+		out += "<h3>" + Escape(state.name) + "</h3>\n<div class=\"photos\">\n";
+		for (size_t p = 0; p < state.photos.size(); ++p, ++n)
+		{
+			const std::string name = Escape(BaseName(state.photos[p].file)), uri = pictures.Uri(n);
+			out += "<figure>";
+			if (!uri.empty())
+				out += fmt::format("<label><input type=\"checkbox\" aria-label=\"enlarge {0}\"/><img alt=\"{0}\" src=\"{1}\"/></label>", name, uri);
+			out += fmt::format("<figcaption><i style=\"color:{}\">■</i> {} {}</figcaption></figure>\n", html::PhotoColour(p), p + 1, name);
+		}
+		out += "</div>\n";
+	}
+	return out;
+}
+
+std::string Fine(const Calibration& c)
+{
+	std::string out = "<h2>Correlations, priors, and how to use the result</h2>\n";
+	const std::string correlations = CorrelationTable(c);
+	out += correlations.empty() ? "<p>This model gives no correlations.</p>\n"
+		: "<p>Correlations of the estimates (q is the inverse-focus vector; its x and y are the tilt). Above some 0.97 two numbers can hardly be told apart.</p>\n" + correlations;
+	out += "<h3>Priors</h3>\n" + PriorsTable(c);
+	out += "<h3>What the sigmas hold</h3>\n<p>They come from the covariance of the fit, rescaled by its residuals: the noise of the measured corners and edges, and as much of the model's error as scatters like noise. "
+		"They do not hold what is common to all photographs: an error of the square's side or of the pitch scales every length, and an aberration that the model lacks shifts its numbers without widening their sigmas. "
+		"The table of what leaving a photograph out changes, and the maps above, are the check.</p>\n";
+	const std::string& name = c.task.states.back().name;
+	out += fmt::format("<h3>In POV-Ray</h3>\n<p>Each state has a file <code>camera-STATE.inc</code>; the world's unit is 1 mm. With the patched POV-Ray:</p>\n<pre>#include &quot;camera-{0}.inc&quot;\n"
+		"TiltCal_{0}(&lt;0, 0, -1000&gt;, &lt;0, 0, 0&gt;, y)   // location, look_at, sky\n// or the camera of a photograph, the board's first inner corner at the origin:\nTiltCal_{0}_Pose(1)</pre>\n"
+		"<p>{1}All numbers, with their sigmas, are in <code>calibration.json</code>.</p>\n", Escape(name),
+		c.MainGeometry().distortion_terms ? "<code>#declare TiltCal_Distortion = 0;</code> before the include takes the camera that was fitted without distortion. " : "");
+	return out;
+}
+
+}
+
+RunNotes NotesOfThisRun(const std::string& refinement)
+{
+	return { refinement, CommandLine(), fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr))) };
+}
+
+ReportPictures::ReportPictures(const Task& task) : height(task.height)
+{
+	size_t photos = 0;
+	for (const State& state : task.states)
+		photos += state.photos.size();
+	// base64 makes 4 bytes of 3.
+	bytes_each = std::min<size_t>(600000, 10500000 / std::max<size_t>(photos, 1));
+}
+
+void ReportPictures::Add(const cv::Mat& overlay)
+{
+	uris.push_back(html::JpegUri(overlay.rowRange(0, std::min(height, overlay.rows)), 1200, bytes_each));
+}
+
+std::string ReportHtml(const Calibration& c, const RunNotes& notes, const ReportPictures& pictures)
+{
+	return HEAD + Summary(c, notes) + Tilt(c) + Effects(c) + Sketches(c) + Residuals(c) + Overlays(c, pictures) + Fine(c) + "</body></html>\n";
+}
+
+}

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "report/write_json.h"
+
+#include "model/projection.h"
+#include <tiltcal/calibrate.h>
+#include "effects/effects.h"
+#include "calibrate/exif_check.h"
+#include "effects/fixed_blades.h"
+#include "calibrate/verdict.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace tiltcal
+{
+
+namespace
+{
+
+// Ordered: people read this file.
+using Json = nlohmann::ordered_json;
+
+const double DEGREES = 180 / 3.14159265358979323846;
+
+/// name_unit and name_sigma_unit.
+void Put(Json& json, const std::string& name, const std::string& unit, const Estimate& e)
+{
+	const auto number = [](double x) { return std::isfinite(x) ? Json(x) : Json(); };
+	json[name + unit] = number(e.value);
+	json[name + "_sigma" + unit] = number(e.sigma);
+}
+
+Json RotationRows(const Pose& pose)
+{
+	double columns[9];
+	ceres::AngleAxisToRotationMatrix(pose.data(), columns);   // column-major
+	Json rows = Json::array();
+	for (int r = 0; r < 3; ++r)
+		rows.push_back({ columns[r], columns[r + 3], columns[r + 6] });
+	return rows;
+}
+
+Json PhotoJson(const Photo& photo, const Geometry& g, size_t s, size_t p)
+{
+	Json json;
+	const Pose& pose = g.poses[s][p];
+	const Pose& sigma = g.pose_sigmas[s][p];
+	json["file"] = photo.file;
+	json["rotation"] = RotationRows(pose);
+	json["rotation_sigma_deg"] = { sigma[0] * DEGREES, sigma[1] * DEGREES, sigma[2] * DEGREES };
+	json["translation_mm"] = { pose[3], pose[4], pose[5] };
+	json["translation_sigma_mm"] = { sigma[3], sigma[4], sigma[5] };
+	json["rms_reprojection_px"] = g.photo_rms[s][p];
+	json["edges"] = photo.edges.size();
+	json["edges_dropped"] = photo.edges_dropped;
+	return json;
+}
+
+Json StateJson(const Calibration& c, const Solution& solution, const Geometry& g, size_t s)
+{
+	const StateLens& lens = solution.states[s];
+	const State& state = c.task.states[s];
+	Json json;
+	json["name"] = state.name;
+	Put(json, "lens_tilt", "_deg", lens.lens_tilt);
+	Put(json, "tilt_direction", "_deg", lens.tilt_direction);
+	Put(json, "focal_plane_tilt", "_deg", lens.focal_plane_tilt);
+	Put(json, "focus_distance", "_mm", lens.focus_distance);
+	Put(json, "focal_length", "_mm", lens.focal_length);
+	json["principal_point_px"] = g.principal_point[s];
+	json["principal_point_sigma_px"] = g.principal_point_sigma[s];
+	json["principal_point_fixed"] = bool(g.principal_point_fixed[s]);
+	json["lens_centre_mm"] = { g.lens_centre[s].x, g.lens_centre[s].y, g.lens_centre[s].z };
+	json["lens_centre_sigma_mm"] = { g.lens_centre_sigma[s].x, g.lens_centre_sigma[s].y, g.lens_centre_sigma[s].z };
+	json["inverse_focus_per_mm"] = { lens.q.x, lens.q.y, lens.q.z };
+	json["inverse_focus_sigma_per_mm"] = { lens.q_sigma.x, lens.q_sigma.y, lens.q_sigma.z };
+	json["rms_blur_px"] = lens.rms_blur;
+	json["chosen_by_power"] = lens.chosen_by_power;
+	json["photos"] = Json::array();
+	for (size_t p = 0; p < state.photos.size(); ++p)
+		json["photos"].push_back(PhotoJson(state.photos[p], g, s, p));
+	return json;
+}
+
+/// The tilts as blur and geometry tell them, each alone.
+Json TellersJson(const Calibration& c)
+{
+	Json json = Json::object();
+	const auto add = [&](const char* teller, const std::vector<StateLens>& states)
+	{
+		for (size_t s = 1; s < states.size(); ++s)
+		{
+			Json& state = json[teller][c.task.states[s].name];
+			Put(state, "lens_tilt", "_deg", states[s].lens_tilt);
+			Put(state, "tilt_direction", "_deg", states[s].tilt_direction);
+		}
+	};
+	add("blur_alone", c.blur_alone);
+	add("geometry_alone", c.geometry_alone.states);
+	if (!c.geometry_alone.states.empty())
+		Put(json["geometry_alone"], "pupil_magnification", "", c.geometry_alone.pupil_magnification);
+	return json;
+}
+
+Json SolutionJson(const Calibration& c, const Solution& solution, const Geometry& g)
+{
+	Json json;
+	json["model"] = solution.model;
+	Put(json, "image_distance", "_mm", solution.w_mm);
+	Put(json, "focal_length", "_mm", solution.focal_length);
+	Put(json, "focus_distance", "_mm", solution.focus_distance);
+	Put(json, "aperture_diameter", "_mm", solution.aperture_diameter);
+	json["principal_point_px"] = g.principal_point[0];
+	json["principal_point_sigma_px"] = g.principal_point_sigma[0];
+	const char* const names[] = { "k1", "k2", "p1", "p2", "k3" };
+	for (size_t k = 0; k < 5; ++k)
+	{
+		json["distortion"][names[k]] = g.distortion[k];
+		json["distortion"][std::string(names[k]) + "_sigma"] = g.distortion_sigma[k];
+	}
+	json["distortion_terms"] = g.distortion_terms;
+	json["distortion_axis"] = "lens axis";
+	json["shared_poses"] = g.shared_poses;
+	Put(json, "field_curvature", "_per_mm", solution.field_curvature);
+	if (solution.model == "curved")
+	{
+		Put(json, "tangential_curvature", "_per_mm", solution.tangential_curvature);
+		Put(json, "sagittal_curvature", "_per_mm", solution.sagittal_curvature);
+	}
+	Put(json, "psf_floor", "_px", solution.psf_floor_px);
+	json["rms_reprojection_px"] = g.rms;
+	json["rms_blur_px"] = solution.rms_blur;
+	json["states"] = Json::array();
+	for (size_t s = 0; s < solution.states.size(); ++s)
+		json["states"].push_back(StateJson(c, solution, g, s));
+	return json;
+}
+
+Json Rounded(double x) { return std::isfinite(x) && x > 0 ? Json(x) : Json(); }
+
+Json VignettingJson(const Calibration& c)
+{
+	const Vignetting& v = c.vignetting;
+	const FalloffAnswer& a = FalloffOf(c);
+	Json json;
+	if (!v.failure.empty())
+		return { { "failure", v.failure } };
+	json["natural"] = Uses(c, "vignetting_natural");
+	if (const FalloffAnswer& rim = RimOf(c); rim.rim_seen)
+	{
+		Put(json["optical"], "radius", "_mm", rim.radius_mm);
+		Put(json["optical"], "distance", "_mm", rim.distance_mm);
+		Put(json["optical"], "darkening", "", rim.darkening);
+		json["optical"]["used"] = Uses(c, "vignetting_optical");
+		for (const RimEstimate& r : rim.rims)
+		{
+			Json& entry = json["optical"]["rims"].emplace_back();
+			Put(entry, "radius", "_mm", r.radius_mm);
+			Put(entry, "distance", "_mm", r.distance_mm);   // < 0: behind the lens
+		}
+		if (!rim.second.why.empty())
+			json["optical"]["second"] = { { "used", rim.second.used }, { "sigmas", Rounded(rim.second.sigmas) }, { "held_out_sigmas_without", Rounded(rim.second.held_out_without) },
+				{ "held_out_sigmas_with", Rounded(rim.second.held_out_with) }, { "why", rim.second.why } };
+	}
+	json["told_by"] = v.flat_field ? "flat fields" : "white squares";
+	json["patches"] = a.points.size();
+	json["rms_percent"] = 100 * a.rms;
+	const char* const kinds[] = { "none", "natural", "optical", "both" };
+	for (size_t k = 0; k < v.answers.size(); ++k)
+		json["held_out_percent"][kinds[k]] = Rounded(100 * v.answers[k].held_out);
+	json["gains"] = Json::array();
+	for (const FalloffGain& g : a.gains)
+		json["gains"].push_back({ { "state", c.task.states[g.state].name },
+			{ "file", v.flat_field ? c.task.flat_fields[g.photo].file : c.task.states[g.state].photos[g.photo].file }, { "gain", g.gain } });
+	return json;
+}
+
+Json ChromaticJson(const Calibration& c)
+{
+	if (!c.chromatic.failure.empty())
+		return { { "failure", c.chromatic.failure } };
+	Json json;
+	Put(json, "lateral_red", "", c.chromatic.lateral[0]);
+	Put(json, "lateral_blue", "", c.chromatic.lateral[1]);
+	Put(json, "axial_red", "_per_mm", c.chromatic.axial_per_mm[0]);
+	Put(json, "axial_blue", "_per_mm", c.chromatic.axial_per_mm[1]);
+	json["edges"] = c.chromatic.edges;
+	return json;
+}
+
+Json EffectsJson(const Calibration& c)
+{
+	Json list = Json::array();
+	for (const Effect& e : c.effects)
+		list.push_back({ { "name", e.name }, { "used", e.used }, { "sigmas", e.failure.empty() ? Rounded(e.sigmas) : Json() }, { "held_out_without", Rounded(e.held_out_without) },
+			{ "held_out_with", Rounded(e.held_out_with) }, { "unit", e.unit }, { "why", e.why } });
+	return list;
+}
+
+/// What --board, --target, --square and --circle-diameter said.
+Json BoardJson(const Board& board)
+{
+	if (board.IsCheckerboard())
+		return { { "kind", NameOf(board.kind) }, { "squares", { board.columns, board.rows } }, { "square_mm", board.square_mm } };
+	return { { "kind", NameOf(board.kind) }, { "circles", { board.columns, board.rows } }, { "spacing_mm", board.square_mm }, { "circle_diameter_mm", board.circle_diameter_mm } };
+}
+
+}
+
+std::string CalibrationJson(const Calibration& c)
+{
+	Json json = SolutionJson(c, c.solution, c.MainGeometry());
+	json["image_size_px"] = { c.task.width, c.task.height };
+	json["pixel_pitch_mm"] = c.task.pitch_mm;
+	json["exif"] = ExifJson(c.task);
+	json["board"] = BoardJson(c.task.board);
+	json["frames"] = "camera: x right, y up, z forward; board: origin at the first inner corner or circle's centre, x along the columns, y up the rows, z into it; "
+		"X_camera = rotation X_board + translation_mm; pixel centres at integers, (0, 0) top left";
+	json["effects"] = EffectsJson(c);
+	json["vignetting"] = VignettingJson(c);
+	json["chromatic"] = ChromaticJson(c);
+	if (c.task.blades.count)
+		json["blades"] = { { "count", c.task.blades.count }, { "rotation_deg", c.task.blades.rotation_deg }, { "curvature", c.task.blades.curvature },
+			{ "aperture_diameter_mm", c.solution.aperture_diameter.value * WideningForBlades(c.task.blades) } };
+	if (c.paper.failure.empty())
+		json["comparison"]["paper"] = SolutionJson(c, c.paper, c.paper_geometry);
+	else
+		json["comparison"]["paper"] = { { "failure", c.paper.failure } };
+	for (const Solution& s : c.compared)
+	{
+		Json& entry = json["held_out_blur_px"][s.model];
+		entry = s.failure.empty() && s.held_out_px > 0 ? Json(s.held_out_px) : Json();
+	}
+	for (const Prior& prior : c.task.priors)
+		json["priors"][prior.Name()] = { { "value", prior.value }, { "sigma", prior.sigma } };
+	for (const Correlation& r : c.solution.correlations)
+		json["correlations"][r.first][r.second] = r.value;
+	json["tilt_told_by"] = TellersJson(c);
+	json["left_out"] = Json::array();
+	for (const LeftOut& l : c.solution.left_out)
+		json["left_out"].push_back({ { "state", c.task.states[l.state].name }, { "file", c.task.states[l.state].photos[l.photo].file },
+			{ "tilt_change_deg", l.tilt_change }, { "rms_blur_px", l.rms_blur } });
+	const Verdict verdict = Judge(c);
+	json["verdict"]["grade"] = Name(verdict.grade);
+	json["verdict"]["remarks"] = Json::array();
+	for (const Remark& remark : verdict.remarks)
+		json["verdict"]["remarks"].push_back({ { "grade", Name(remark.grade) }, { "text", remark.text } });
+	json["render"] = SolutionJson(c, c.render, c.RenderGeometry());
+	json["render"]["note"] = "the camera without distortion that the .inc files hold unless TiltCal_Distortion is set";
+	json["program"] = "tiltcal " TILTCAL_VERSION;
+	return json.dump(1, '\t') + "\n";
+}
+
+}

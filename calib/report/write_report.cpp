@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "report/write_report.h"
+
+#include <tiltcal/calibrate.h>
+#include "effects/effects.h"
+#include "base/files.h"
+#include "base/gnuplot.h"
+#include "picture/image_io.h"
+#include "report/overlay.h"
+#include "report/report_html.h"
+#include "calibrate/verdict.h"
+#include "report/write_csv.h"
+#include "camera/write_inc.h"
+#include "report/write_json.h"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+namespace tiltcal
+{
+
+namespace
+{
+
+std::string PlusMinus(const Estimate& e, int digits) { return fmt::format("{:.{}f} +- {:.{}f}", e.value, digits, e.sigma, digits); }
+
+/// One row per state for one model.
+std::string StateRows(const Calibration& c, const Solution& solution, const Geometry& g)
+{
+	std::string rows;
+	for (size_t s = 0; s < solution.states.size(); ++s)
+	{
+		const StateLens& l = solution.states[s];
+		const bool tilted = c.task.states[s].tilted;
+		double squares = 0;
+		for (const double r : g.photo_rms[s])
+			squares += r * r;
+		rows += fmt::format("{:<12} {:<6} {:>6} {:>16} {:>14} {:>16} {:>16} {:>9.3f} {:>8.3f}\n", c.task.states[s].name, solution.model,
+			c.task.states[s].photos.size(), tilted ? PlusMinus(l.lens_tilt, 3) : "0", tilted ? PlusMinus(l.tilt_direction, 2) : "-",
+			tilted ? PlusMinus(l.focal_plane_tilt, 2) : "0", PlusMinus(l.focus_distance, 1),
+			std::sqrt(squares / double(g.photo_rms[s].size())), l.rms_blur);
+	}
+	return rows;
+}
+
+std::string ModelLine(const Solution& s)
+{
+	if (!s.failure.empty())
+		return fmt::format("{:<6} no answer: {}\n", s.model, s.failure);
+	return fmt::format("{:<6} w {} mm   d {} mm   U {} mm   f {} mm   floor {:.2f} px\n", s.model, PlusMinus(s.w_mm, 3),
+		PlusMinus(s.aperture_diameter, 3), PlusMinus(s.focus_distance, 1), PlusMinus(s.focal_length, 3), s.psf_floor_px.value);
+}
+
+std::string PerMetre(const Estimate& e) { return fmt::format("{:.3f} +- {:.3f}", 1000 * e.value, 1000 * e.sigma); }
+
+std::string CurvatureLine(const Solution& s)
+{
+	return fmt::format("\nfield curvature {} per metre (tangential {}, sagittal {}): the plane of focus is the one that touches the bowl on the lens axis\n",
+		PerMetre(s.field_curvature), PerMetre(s.tangential_curvature), PerMetre(s.sagittal_curvature));
+}
+
+/// How well each model foretells the blur of photographs that it was not fitted to, and the tilts it finds.
+std::string Comparison(const Calibration& c)
+{
+	std::string out = "\nblur of photographs left out, in turn, of the fit:\n";
+	const Solution* best = nullptr;
+	for (const Solution& s : c.compared)
+	{
+		if (!s.failure.empty())
+		{
+			out += fmt::format("  {:<6} no answer: {}\n", s.model, s.failure);
+			continue;
+		}
+		out += fmt::format("  {:<6} {}", s.model, s.held_out_px > 0 ? fmt::format("{:.3f} px", s.held_out_px) : "cannot be said of one photograph a state");
+		for (size_t k = 1; k < s.states.size(); ++k)
+			out += fmt::format("   {} {:.3f} deg towards {:.2f}", c.task.states[k].name, s.states[k].lens_tilt.value, s.states[k].tilt_direction.value);
+		out += "\n";
+		if (s.held_out_px > 0 && (!best || s.held_out_px < best->held_out_px))
+			best = &s;
+	}
+	if (best)
+		out += fmt::format("  {} foretells them best{}\n", best->model, best->model == c.solution.model ? ", and was taken"
+			: fmt::format("; {} was taken, see --help. The difference is small when their tilts agree", c.solution.model));
+	return out;
+}
+
+/// The tilts as told by blur, by geometry and by both.
+std::string Tellers(const Calibration& c)
+{
+	std::string out = "\nwhat tells the tilt:\n";
+	const auto row = [&](const char* name, const std::vector<StateLens>& states)
+	{
+		out += fmt::format("  {:<14}", name);
+		for (size_t s = 1; s < states.size(); ++s)
+			out += fmt::format("   {} {} deg towards {}", c.task.states[s].name, PlusMinus(states[s].lens_tilt, 3), PlusMinus(states[s].tilt_direction, 2));
+		out += states.empty() ? "   nothing\n" : "\n";
+	};
+	row("blur alone", c.blur_alone);
+	row("geometry alone", c.geometry_alone.states);
+	row("jointly", c.solution.states);
+	if (!c.geometry_alone.states.empty())
+		out += fmt::format("  geometry alone sees a pupil magnification of {}\n", PlusMinus(c.geometry_alone.pupil_magnification, 3));
+	for (size_t s = 1; c.geometry.shared_poses && s < c.geometry.lens_centre.size(); ++s)
+	{
+		const Vec3<double>&at = c.geometry.lens_centre[s], &sigma = c.geometry.lens_centre_sigma[s];
+		out += fmt::format("  the lens centre moved by ({:.3f}, {:.3f}, {:.3f}) +- ({:.3f}, {:.3f}, {:.3f}) mm in {}\n", at.x, at.y, at.z, sigma.x, sigma.y, sigma.z, c.task.states[s].name);
+	}
+	return out;
+}
+
+std::string VerdictText(const Verdict& verdict)
+{
+	std::string out = fmt::format("\nverdict: {}\n", Name(verdict.grade));
+	for (const Remark& r : verdict.remarks)
+		out += fmt::format("  {} {}\n", r.grade == Grade::GOOD ? "note:" : r.grade == Grade::FAIR ? "fair:" : "POOR:", r.text);
+	return out;
+}
+
+/// One row per edge: what the plot shows, and what a reader needs to look further.
+std::string BlurCsv(const Calibration& c, size_t s)
+{
+	std::string csv = "photo,x_px,y_px,along_columns,measured_px,sigma_px,predicted_px\n";
+	for (size_t p = 0; p < c.task.states[s].photos.size(); ++p)
+		for (const Edge& e : c.task.states[s].photos[p].edges)
+			csv += fmt::format("{},{:.2f},{:.2f},{},{:.4f},{:.4f},{:.4f}\n", p + 1, e.x, e.y, int(e.along_columns), e.blur, e.blur_sigma,
+				PredictedBlur(c, s, p, e));
+	return csv;
+}
+
+void PlotBlur(const Calibration& c, size_t s, const std::string& folder)
+{
+	const std::string& name = c.task.states[s].name;
+	const std::string data = Join(folder, "blur-" + name + ".csv");
+	WriteText(data, BlurCsv(c, s));
+	double most = 1;
+	for (const Photo& photo : c.task.states[s].photos)
+		for (const Edge& e : photo.edges)
+			most = std::max(most, e.blur);
+	const size_t photos = c.task.states[s].photos.size();
+	// One colour per photograph; below, the difference, where the model's errors show.
+	const std::string script = fmt::format(
+		"set datafile separator ','\nset multiplot layout 2,1 title {0}\nset grid lc rgb '#dddddd'\nset key outside right title 'photo'\n"
+		"set xrange [0:{1:.3f}]\nset yrange [0:{1:.3f}]\nset ylabel 'measured blur [px]'\n"
+		"plot x with lines lc rgb '#888888' notitle, for [i=1:{2}] {3} every ::1 using ($1==i?$7:1/0):5 with points pt 7 ps 0.5 lc i title sprintf('%d',i)\n"
+		"set yrange [-3:3]\nset ylabel 'measured - predicted [px]'\nset xlabel 'predicted blur [px]'\n"
+		"plot 0 with lines lc rgb '#888888' notitle, for [i=1:{2}] {3} every ::1 using ($1==i?$7:1/0):($5-$7) with points pt 7 ps 0.5 lc i title sprintf('%d',i)\n"
+		"unset multiplot\n",
+		GnuplotString(fmt::format("Blur width, state {} (model {}, {:.2f} px RMS)", name, c.solution.model, c.solution.states[s].rms_blur)),
+		1.05 * most, photos, GnuplotString(data));
+	Plot(Join(folder, "blur-" + name + ".png"), script, 900, 900);
+}
+
+}
+
+std::string SummaryTable(const Calibration& c)
+{
+	std::string out = ModelLine(c.solution);
+	const bool compare = c.solution.model != "paper";
+	if (compare)
+		out += ModelLine(c.paper);
+	out += fmt::format("\n{:<12} {:<6} {:>6} {:>16} {:>14} {:>16} {:>16} {:>9} {:>8}\n", "state", "model", "photos", "lens tilt deg", "direction deg",
+		"plane tilt deg", "focus mm", "corner px", "blur px");
+	out += StateRows(c, c.solution, c.MainGeometry());
+	if (compare && c.paper.failure.empty())
+		out += StateRows(c, c.paper, c.paper_geometry);
+	const Geometry& g = c.MainGeometry();
+	out += fmt::format("\nreprojection {:.3f} px RMS", g.rms);
+	if (g.distortion_terms)
+		out += fmt::format(" (k1 {:.4f}, k2 {:.4f}, p1 {:.5f}, p2 {:.5f}, k3 {:.4f}, about the lens axis); {:.3f} px without distortion", g.distortion[0],
+			g.distortion[1], g.distortion[2], g.distortion[3], g.distortion[4], c.pinhole.rms);
+	out += fmt::format("; blur {:.3f} px RMS\n", c.solution.rms_blur);
+	if (c.solution.model == "curved")
+		out += CurvatureLine(c.solution);
+	if (!c.effects.empty())
+		out += EffectsText(c);
+	if (!c.blur_alone.empty() && c.task.states.size() > 1)
+		out += Tellers(c);
+	if (!c.compared.empty())
+		out += Comparison(c);
+	if (c.solution.model != "paper")
+		out += VerdictText(Judge(c));
+	return out;
+}
+
+void WriteEverything(const Calibration& c, const Transfer& transfer, const std::string& folder, const std::string& refinement)
+{
+	ReportPictures pictures(c.task);
+	for (size_t s = 0; s < c.task.states.size(); ++s)
+	{
+		spdlog::info("state {}: drawing overlays and plot", c.task.states[s].name);
+		for (size_t p = 0; p < c.task.states[s].photos.size(); ++p)
+		{
+			const std::string& file = c.task.states[s].photos[p].file;
+			const cv::Mat grey = Luminance(ReadLinear(file, transfer));
+			const cv::Mat overlay = DrawOverlay(grey, c, s, p);
+			WritePng(Join(folder, fmt::format("overlay-{}-{}.png", c.task.states[s].name, p + 1)), overlay);
+			pictures.Add(overlay);
+		}
+		PlotBlur(c, s, folder);
+		WriteText(Join(folder, "camera-" + c.task.states[s].name + ".inc"), CameraInc(c, s));
+	}
+	WriteText(Join(folder, "report.txt"), SummaryTable(c));
+	WriteText(Join(folder, "calibration.json"), CalibrationJson(c));
+	spdlog::info("writing report.html");
+	WriteText(Join(folder, "report.html"), ReportHtml(c, NotesOfThisRun(refinement), pictures));
+}
+
+}

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "solve/blur_fit.h"
+
+#include "model/projection.h"
+#include <tiltcal/error.h>
+#include "model/footprint.h"
+#include "solve/prior_cost.h"
+#include "base/robust.h"
+#include "solve/solve_geometry.h"
+
+#include <ceres/ceres.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tiltcal
+{
+
+namespace
+{
+
+struct BlurCost
+{
+	LensModel model;
+	const Observation& o;
+	double weight, w_mm;
+
+	template<typename T>
+	bool operator()(const T* d, const T* floor_squared, const T* power, const T* curvature, const T* state, T* residual) const
+	{
+		using std::sqrt;
+		const Vec3<T> q = PlaneOfState(model, power, state, T(w_mm));
+		const Vec3<T> n = tilt_lens::LensFromPlane(q, T(1 / w_mm)).normal;
+		// The tiny constant keeps the root smooth where blur and floor both vanish.
+		residual[0] = weight * (sqrt(SquaredFootprintWidth(*d, q, n, curvature, Lifted<T>(o.P), Lifted<T>(o.gradient)) + *floor_squared + T(1e-6)) - o.blur);
+		return true;
+	}
+};
+
+using BlurCostFunction = ceres::AutoDiffCostFunction<BlurCost, 1, 1, 1, 1, 2, 3>;
+
+void Build(const BlurFit& fit, ceres::Problem& problem, Unknowns& x, Free free, size_t state)
+{
+	for (const Observation& o : fit.observations)
+	{
+		if (free != Free::EVERYTHING && o.state != state)
+			continue;
+		const double weight = 1 / std::hypot(o.sigma, fit.model_sigma);
+		problem.AddResidualBlock(new BlurCostFunction(new BlurCost{ fit.model, o, weight, fit.w_mm }),
+			new ceres::HuberLoss(2.0), &x.d, &x.floor_squared, &x.power, x.curvature.data(), x.state[o.state].data());
+	}
+	if (!fit.priors.empty() && (free == Free::EVERYTHING || state == 0) && problem.HasParameterBlock(x.state[0].data()))
+	{
+		double* const w = const_cast<double*>(&fit.w_mm);   // held
+		AddPriors(fit.priors, fit.model, w, 1, &x.d, &x.power, x.state[0].data(), problem);
+		problem.SetParameterBlockConstant(w);
+	}
+	HoldUnused(fit.model, x, problem);
+	if (free != Free::EVERYTHING)
+		problem.SetParameterBlockConstant(x.curvature.data());
+	if (free == Free::ONE_STATE)
+	{
+		problem.SetParameterBlockConstant(&x.power);
+		problem.SetParameterBlockConstant(&x.d);
+		problem.SetParameterBlockConstant(&x.floor_squared);
+	}
+}
+
+}
+
+void HoldUnused(LensModel model, Unknowns& x, ceres::Problem& problem)
+{
+	problem.SetParameterLowerBound(&x.floor_squared, 0, 0);
+	for (size_t s = 0; s < x.state.size(); ++s)
+	{
+		double* const own = x.state[s].data();
+		if (!problem.HasParameterBlock(own))
+			continue;
+		if (HasFreePlanes(model) && s == 0)
+			problem.SetManifold(own, new ceres::SubsetManifold(3, { 0, 1 }));
+		if (model == LensModel::RIGID && s == 0)
+			problem.SetParameterBlockConstant(own);
+		if (model == LensModel::RIGID && s > 0)
+			problem.SetManifold(own, new ceres::SubsetManifold(3, { 2 }));
+	}
+	if (HasFreePlanes(model))
+		problem.SetParameterBlockConstant(&x.power);
+	if (!IsCurved(model))
+		problem.SetParameterBlockConstant(x.curvature.data());
+	else if (model == LensModel::BOWL)
+		problem.SetManifold(x.curvature.data(), new ceres::SubsetManifold(2, { 1 }));
+}
+
+Eigen::MatrixXd PlanesByUnknowns(LensModel model, const Unknowns& x, double w_mm)
+{
+	using Jet = ceres::Jet<double, 5>;
+	const int states = int(x.state.size());
+	Eigen::MatrixXd J = Eigen::MatrixXd::Zero(5 + 3 * states, 6 + 3 * states);
+	J(0, 0) = J(1, 1) = J(2, 2) = J(3, 4) = J(4, 5) = 1;
+	for (int s = 0; s < states; ++s)
+	{
+		const StateNumbers& own = x.state[size_t(s)];
+		const Jet power(x.power, 0), state[3] = { Jet(own[0], 1), Jet(own[1], 2), Jet(own[2], 3) };
+		const Vec3<Jet> q = PlaneOfState(model, &power, state, Jet(w_mm, 4));
+		const Jet* const rows[] = { &q.x, &q.y, &q.z };
+		for (int r = 0; r < 3; ++r)
+		{
+			J(5 + 3 * s + r, 0) = rows[r]->v[4];
+			J(5 + 3 * s + r, 3) = rows[r]->v[0];
+			J.block<1, 3>(5 + 3 * s + r, 6 + 3 * s) = rows[r]->v.segment<3>(1).transpose();
+		}
+	}
+	return J;
+}
+
+std::vector<Observation> Observe(const Task& task, const Geometry& g)
+{
+	std::vector<Observation> all;
+	for (size_t s = 0; s < task.states.size(); ++s)
+		for (size_t p = 0; p < task.states[s].photos.size(); ++p)
+			for (const Edge& e : task.states[s].photos[p].edges)
+			{
+				const Vec3<double> P = EdgeInCamera(task, g.poses[s][p], e);
+				all.push_back({ s, p, P, EdgeGradient(g, s, P, e), e.blur, e.blur_sigma });
+			}
+	return all;
+}
+
+double BlurFit::Residual(const Observation& o, const Unknowns& x) const
+{
+	double r = 0;
+	BlurCost{ model, o, 1, w_mm }(&x.d, &x.floor_squared, &x.power, x.curvature.data(), x.state[o.state].data(), &r);
+	return r;
+}
+
+Vec3<double> BlurFit::Plane(const Unknowns& x, size_t state) const
+{
+	return PlaneOfState(model, &x.power, x.state[state].data(), w_mm);
+}
+
+double BlurFit::Minimise(Unknowns& x, Free free, size_t state) const
+{
+	ceres::Problem problem;
+	Build(*this, problem, x, free, state);
+	ceres::Solver::Options options;
+	options.linear_solver_type = ceres::DENSE_QR;
+	options.max_num_iterations = 100;
+	options.function_tolerance = 1e-10;
+	options.logging_type = ceres::SILENT;
+	ceres::Solver::Summary summary;
+	ceres::Solve(options, &problem, &summary);
+	x.d = std::abs(x.d);
+	return summary.IsSolutionUsable() ? summary.final_cost : 1e300;
+}
+
+double BlurFit::Scale(const Unknowns& x) const
+{
+	std::vector<double> r;
+	for (const Observation& o : observations)
+		r.push_back(Residual(o, x));
+	return RobustSigma(std::move(r));
+}
+
+Eigen::MatrixXd BlurFit::CovarianceOfPlanes(Unknowns x, double w_sigma_mm) const
+{
+	ceres::Problem problem;
+	Build(*this, problem, x, Free::EVERYTHING, 0);
+	double cost = 0;
+	problem.Evaluate(ceres::Problem::EvaluateOptions(), &cost, nullptr, nullptr, nullptr);
+	ceres::Covariance::Options options;
+	options.algorithm_type = ceres::DENSE_SVD;
+	options.min_reciprocal_condition_number = 1e-22;
+	ceres::Covariance covariance(options);
+	std::vector<const double*> blocks{ &x.d, &x.floor_squared, &x.power, x.curvature.data() };
+	for (StateNumbers& state : x.state)
+		blocks.push_back(state.data());
+	if (!covariance.Compute(blocks, &problem))
+		throw Refused("the blur does not determine the lens: photograph inclined boards whose blur differs clearly from one end to the other");
+	const int n = 5 + 3 * int(x.state.size());
+	Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> c(n, n);
+	covariance.GetCovarianceMatrix(blocks, c.data());
+	int free_unknowns = 0;
+	for (int k = 0; k < n; ++k)
+		free_unknowns += c(k, k) > 0;
+	const double freedom = std::max(1, problem.NumResiduals() - free_unknowns);
+	Eigen::MatrixXd with_w = Eigen::MatrixXd::Zero(n + 1, n + 1);
+	with_w(0, 0) = w_sigma_mm * w_sigma_mm;
+	with_w.bottomRightCorner(n, n) = c * (2 * cost / freedom);
+	const Eigen::MatrixXd J = PlanesByUnknowns(model, x, w_mm);
+	return J * with_w * J.transpose();
+}
+
+}

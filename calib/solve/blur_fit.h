@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// The least squares of the exact models: measured blur widths against the footprint of the lens (footprint.h).
+
+#ifndef TILTCAL_BLUR_FIT_H
+#define TILTCAL_BLUR_FIT_H
+
+#include <tiltcal/calibration.h>
+#include "model/lens_model.h"
+
+#include <Eigen/Core>
+#include <ceres/problem.h>
+
+#include <vector>
+
+namespace tiltcal
+{
+
+/// One measured edge.
+struct Observation
+{
+	size_t state, photo;
+	Vec3<double> P;       // camera frame, mm
+	Vec3<double> gradient;   // footprint.h, px/mm
+	double blur, sigma;   // px
+};
+
+/// Every edge of the task, placed by `geometry`'s poses.
+std::vector<Observation> Observe(const Task& task, const Geometry& geometry);
+
+struct Unknowns
+{
+	double d = 0;              // mm
+	double floor_squared = 1;  // px^2; squared, because the blur does not change with floor at 0
+	double power = 0;          // 1/f, 1/mm; RIGID only
+	std::array<double, 2> curvature{ 0, 0 };   // footprint.h, 1/mm; BOWL: the first, BOWLS: both
+	std::vector<StateNumbers> state;
+};
+
+/// Which unknowns move in a fit.
+enum class Free
+{
+	UNTILTED,    ///< d, floor and the untilted state, on its edges
+	ONE_STATE,   ///< one tilted state's own numbers, on its edges
+	EVERYTHING   ///< field curvature too, which the others hold
+};
+
+/// Holds what the model does not have, and what the untilted state keeps at 0, of a problem's blocks.
+void HoldUnused(LensModel model, Unknowns& x, ceres::Problem& problem);
+
+/// d(w, d, floor^2, curvature, q of every state) / d(w, d, floor^2, power, curvature, numbers of every state), by
+/// automatic derivatives. w in mm.
+Eigen::MatrixXd PlanesByUnknowns(LensModel model, const Unknowns& x, double w_mm);
+
+struct BlurFit
+{
+	LensModel model;
+	const std::vector<Observation>& observations;
+	double w_mm;
+	double model_sigma;    ///< px: what the model leaves out, common to all edges
+	const std::vector<Prior>& priors;
+
+	/// Predicted minus measured, px.
+	double Residual(const Observation& o, const Unknowns& x) const;
+
+	Vec3<double> Plane(const Unknowns& x, size_t state) const;
+
+	/// Robust fit from x, in place; `state` counts for ONE_STATE. Returns the final cost (half the
+	/// weighted sum of squares), 1e300 without convergence.
+	double Minimise(Unknowns& x, Free free, size_t state) const;
+
+	/// RobustSigma of the residuals, px.
+	double Scale(const Unknowns& x) const;
+
+	/// Covariance of w, d, floor^2, the two of `curvature` and q of every state, in that order (mm, px), rescaled
+	/// by the residuals. w is held, and has the standard deviation given. Throws Refused when the fit is singular.
+	Eigen::MatrixXd CovarianceOfPlanes(Unknowns x, double w_sigma_mm) const;
+};
+
+}
+
+#endif

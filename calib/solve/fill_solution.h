@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#ifndef TILTCAL_FILL_SOLUTION_H
+#define TILTCAL_FILL_SOLUTION_H
+
+#include "solve/blur_fit.h"
+
+#include <Eigen/Core>
+
+namespace tiltcal
+{
+
+/// The numbers that people read, of a fit's unknowns. `covariance` is that of w, d, floor^2, the two of `curvature`
+/// and q of every state, in that order (BlurFit::CovarianceOfPlanes); w is `geometry`'s.
+void FillSolution(const Task& task, const Geometry& geometry, const BlurFit& fit, const Unknowns& x, const Eigen::MatrixXd& covariance, Solution& out);
+
+/// Throws Refused where aperture, focus or a tilt are not determined, saying what to photograph.
+void RefuseUndetermined(const Task& task, const Solution& solution);
+
+}
+
+#endif

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "solve/joint_fit.h"
+
+#include "model/lens_model.h"
+#include <tiltcal/photo.h>
+#include "solve/edge_cost.h"
+#include "solve/prior_cost.h"
+#include "solve/solve_geometry.h"
+
+#include <ceres/ceres.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tiltcal
+{
+
+namespace
+{
+
+static_assert(sizeof(Vec3<double>) == 3 * sizeof(double), "a block of three numbers");
+
+/// The blocks of one edge, in EdgeModel's order.
+std::vector<double*> Blocks(Geometry& g, Unknowns& x, size_t s, size_t p)
+{
+	return { &g.w_px, g.distortion.data(), g.principal_point[s].data(), PoseOf(g, s, p).data(),
+		&x.d, &x.floor_squared, &x.power, x.curvature.data(), x.state[s].data(), &g.lens_centre[s].x, &g.pupil_magnification };
+}
+
+template<typename Each>
+void ForEachEdge(const Task& task, Each each)
+{
+	for (size_t s = 0; s < task.states.size(); ++s)
+		for (size_t p = 0; p < task.states[s].photos.size(); ++p)
+			for (const Edge& e : task.states[s].photos[p].edges)
+				each(s, p, e);
+}
+
+EdgeWeights WeightsOf(const JointFit& fit, const Edge& e)
+{
+	return { 1 / std::hypot(e.offset_sigma, fit.error.offset), fit.geometry_alone ? 0 : 1 / std::hypot(e.blur_sigma, fit.error.blur) };
+}
+
+ceres::CostFunction* CostOf(const JointFit& fit, const Edge& e, const Vec3<double>& axis)
+{
+	const EdgeModel edge = MakeEdgeModel(fit.task, fit.model, e, axis, fit.geometry_alone);
+	const EdgeWeights weights = WeightsOf(fit, e);
+	if (fit.kind == Refinement::PHOTOMETRIC && !e.profile.empty() && !fit.geometry_alone)
+		return NewPhotometricCost(edge, e, weights);
+	return NewEdgeCost(edge, e.blur, weights);
+}
+
+void Build(const JointFit& fit, Geometry& g, Unknowns& x, ceres::Problem& problem)
+{
+	ForEachEdge(fit.task, [&](size_t s, size_t p, const Edge& e)
+	{
+		ceres::CostFunction* cost = CostOf(fit, e, g.lens_normal[s]);
+		// A block of n standard normal residuals has the norm sqrt(n).
+		problem.AddResidualBlock(cost, new ceres::HuberLoss(2.5 * std::sqrt(double(cost->num_residuals()))), Blocks(g, x, s, p));
+	});
+	if (!fit.geometry_alone)
+		AddPriors(fit.task.priors, fit.model, &g.w_px, fit.task.pitch_mm, &x.d, &x.power, x.state[0].data(), problem);
+	HoldDistortion(g, problem);
+	HoldUnused(fit.model, x, problem);
+	for (size_t s = 0; s < g.principal_point.size(); ++s)
+		if (g.principal_point_fixed[s])
+			problem.SetParameterBlockConstant(g.principal_point[s].data());
+	for (size_t s = 0; s < g.lens_centre.size(); ++s)
+		if (s == 0 || !g.shared_poses)
+			problem.SetParameterBlockConstant(&g.lens_centre[s].x);
+	if (!fit.geometry_alone || !g.shared_poses)
+		problem.SetParameterBlockConstant(&g.pupil_magnification);
+	if (!fit.geometry_alone)
+		return;
+	for (double* block : { &x.d, &x.floor_squared, &x.power, x.curvature.data() })
+		problem.SetParameterBlockConstant(block);
+	problem.SetParameterBlockConstant(x.state[0].data());
+	// Of a state's numbers the tilt alone is seen: q_z hardly moves the lens normal.
+	for (size_t s = 1; s < x.state.size(); ++s)
+		problem.SetManifold(x.state[s].data(), new ceres::SubsetManifold(3, { 2 }));
+}
+
+/// Poses that are shared stand in every state, from its own lens centre.
+void SpreadPoses(Geometry& g)
+{
+	if (!g.shared_poses)
+		return;
+	for (size_t s = 1; s < g.poses.size(); ++s)
+		for (size_t p = 0; p < g.poses[s].size(); ++p)
+		{
+			Pose& pose = g.poses[s][p] = g.poses[0][p];
+			pose[3] -= g.lens_centre[s].x;
+			pose[4] -= g.lens_centre[s].y;
+			pose[5] -= g.lens_centre[s].z;
+			if (!g.pose_sigmas.empty())
+				g.pose_sigmas[s][p] = g.pose_sigmas[0][p];
+		}
+}
+
+/// The blocks whose covariance PlanesByUnknowns takes, in its order.
+std::vector<const double*> LensBlocks(const Geometry& g, const Unknowns& x)
+{
+	std::vector<const double*> blocks{ &g.w_px, &x.d, &x.floor_squared, &x.power, x.curvature.data() };
+	for (const StateNumbers& state : x.state)
+		blocks.push_back(state.data());
+	return blocks;
+}
+
+/// Every other block that has a sigma, and where that goes.
+struct SigmaOf
+{
+	const double* block;
+	int size;
+	double* sigma;
+};
+
+std::vector<SigmaOf> GeometryBlocks(Geometry& g)
+{
+	std::vector<SigmaOf> blocks{ { g.distortion.data(), 5, g.distortion_sigma.data() }, { &g.pupil_magnification, 1, &g.pupil_magnification_sigma } };
+	for (size_t s = 0; s < g.poses.size(); ++s)
+	{
+		blocks.push_back({ g.principal_point[s].data(), 2, g.principal_point_sigma[s].data() });
+		blocks.push_back({ &g.lens_centre[s].x, 3, &g.lens_centre_sigma[s].x });
+		for (size_t p = 0; p < g.poses[s].size() && (s == 0 || !g.shared_poses); ++p)
+			blocks.push_back({ g.poses[s][p].data(), 6, g.pose_sigmas[s][p].data() });
+	}
+	return blocks;
+}
+
+/// Covariances of a problem's blocks, 0 for those that are held.
+class BlockCovariance
+{
+public:
+	/// Fails on a singular problem, which is the answer wanted there.
+	explicit BlockCovariance(ceres::Problem& to_judge) : problem(to_judge), covariance([] { ceres::Covariance::Options o; o.algorithm_type = ceres::SPARSE_QR; return o; }()) {}
+
+	bool Compute(const std::vector<const double*>& together, const std::vector<SigmaOf>& alone)
+	{
+		std::vector<std::pair<const double*, const double*>> pairs;
+		for (size_t i = 0; i < together.size(); ++i)
+			for (size_t j = i; j < together.size(); ++j)
+				if (Free(together[i]) && Free(together[j]))
+					pairs.emplace_back(together[i], together[j]);
+		for (const SigmaOf& a : alone)
+			if (Free(a.block))
+				pairs.emplace_back(a.block, a.block);
+		return covariance.Compute(pairs, &problem);
+	}
+
+	Eigen::MatrixXd Of(const double* a, const double* b) const
+	{
+		Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> c = Eigen::MatrixXd::Zero(problem.ParameterBlockSize(a), problem.ParameterBlockSize(b));
+		if (Free(a) && Free(b))
+			covariance.GetCovarianceBlock(a, b, c.data());
+		return c;
+	}
+
+	/// Of all of them, one after the other.
+	Eigen::MatrixXd Of(const std::vector<const double*>& blocks) const
+	{
+		int n = 0;
+		for (const double* block : blocks)
+			n += problem.ParameterBlockSize(block);
+		Eigen::MatrixXd all(n, n);
+		for (int i = 0, row = 0; i < int(blocks.size()); row += problem.ParameterBlockSize(blocks[size_t(i)]), ++i)
+			for (int j = 0, column = 0; j < int(blocks.size()); column += problem.ParameterBlockSize(blocks[size_t(j)]), ++j)
+			{
+				const double *a = blocks[size_t(i)], *b = blocks[size_t(j)];
+				all.block(row, column, problem.ParameterBlockSize(a), problem.ParameterBlockSize(b)) = i <= j ? Of(a, b) : Eigen::MatrixXd(Of(b, a).transpose());
+			}
+		return all;
+	}
+
+private:
+	bool Free(const double* block) const { return !problem.IsParameterBlockConstant(block); }
+
+	ceres::Problem& problem;
+	ceres::Covariance covariance;
+};
+
+}
+
+std::vector<std::array<double, 2>> JointFit::Residuals(const Geometry& geometry, const Unknowns& x) const
+{
+	Geometry g = geometry;
+	Unknowns y = x;
+	std::vector<std::array<double, 2>> all;
+	ForEachEdge(task, [&](size_t s, size_t p, const Edge& e)
+	{
+		const std::vector<double*> b = Blocks(g, y, s, p);
+		double seen[2] = { 1e9, 1e9 };
+		MakeEdgeModel(task, model, e, g.lens_normal[s], geometry_alone)(b[0], b[1], b[2], b[3], b[4], b[5], b[6], b[7], b[8], b[9], b[10], seen);
+		all.push_back({ seen[0], seen[1] - e.blur });
+	});
+	return all;
+}
+
+bool JointFit::Minimise(Geometry& g, Unknowns& x) const
+{
+	ceres::Problem problem;
+	Build(*this, g, x, problem);
+	ceres::Solver::Options options;
+	options.linear_solver_type = ceres::DENSE_SCHUR;
+	options.max_num_iterations = 60;
+	options.function_tolerance = 1e-9;
+	options.num_threads = 2;
+	options.logging_type = ceres::SILENT;
+	ceres::Solver::Summary summary;
+	ceres::Solve(options, &problem, &summary);
+	x.d = std::abs(x.d);
+	SpreadPoses(g);
+	return summary.IsSolutionUsable();
+}
+
+bool JointFit::Covariance(Geometry& g, Unknowns& x, Eigen::MatrixXd& out) const
+{
+	// Of the edges also where their brightness was fitted: what the model leaves out of a profile is common to all
+	// its bins, and would make the sigmas too small by the root of their number.
+	JointFit by_edges = *this;
+	by_edges.kind = Refinement::EDGES;
+	ceres::Problem problem;
+	Build(by_edges, g, x, problem);
+	BlockCovariance covariance(problem);
+	const std::vector<const double*> lens = LensBlocks(g, x);
+	const std::vector<SigmaOf> geometry = GeometryBlocks(g);
+	if (!covariance.Compute(lens, geometry))
+		return false;
+
+	double cost = 0;
+	problem.Evaluate(ceres::Problem::EvaluateOptions(), &cost, nullptr, nullptr, nullptr);
+	const double scale = 2 * cost / std::max(problem.NumResiduals() - problem.NumParameters(), 1);
+	Eigen::MatrixXd c = scale * covariance.Of(lens);
+	g.w_px_sigma = std::sqrt(c(0, 0));
+	c.row(0) *= task.pitch_mm;
+	c.col(0) *= task.pitch_mm;
+	const Eigen::MatrixXd J = PlanesByUnknowns(model, x, g.w_px * task.pitch_mm);
+	out = J * c * J.transpose();
+	for (const SigmaOf& wanted : geometry)
+	{
+		const Eigen::MatrixXd own = scale * covariance.Of(wanted.block, wanted.block);
+		for (int i = 0; i < wanted.size; ++i)
+			wanted.sigma[i] = std::sqrt(std::max(own(i, i), 0.0));
+	}
+	SpreadPoses(g);
+	return true;
+}
+
+}

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// The least squares of everything at once: where edges lie and how wide they are, or their
+// brightness itself, against one camera. Poses, image distance, distortion, principal points,
+// aperture and planes of focus move together, so that each one's sigma knows of all others.
+
+#ifndef TILTCAL_JOINT_FIT_H
+#define TILTCAL_JOINT_FIT_H
+
+#include "solve/blur_fit.h"
+
+#include <Eigen/Core>
+
+namespace tiltcal
+{
+
+/// What the refinement compares.
+enum class Refinement
+{
+	NONE,         ///< nothing: geometry first, then blur with the geometry held
+	EDGES,        ///< place and blur width of every edge
+	PHOTOMETRIC   ///< the brightness across every edge
+};
+
+/// What the model leaves out, common to all edges, px: robust standard deviations of the residuals.
+struct ModelError
+{
+	double offset = 0.1, blur = 0.3;
+};
+
+struct JointFit
+{
+	const Task& task;
+	LensModel model;
+	Refinement kind = Refinement::EDGES;
+	ModelError error;
+	/// Blur counts nothing: what the places of edges say of the tilt, by the axis of the distortion and by the
+	/// picture's keystone, which needs the pupil magnification free. Otherwise the axis is held: what a thin lens
+	/// leaves out of a thick one's picture would pull at the tilt (photos-45mm: by 0.06 degrees).
+	bool geometry_alone = false;
+
+	/// Predicted minus measured place (across the edge) and blur width, px, of every edge; state by state.
+	std::vector<std::array<double, 2>> Residuals(const Geometry& geometry, const Unknowns& x) const;
+
+	/// Robust fit of both in place. False: no convergence.
+	bool Minimise(Geometry& geometry, Unknowns& x) const;
+
+	/// As BlurFit's, but of everything free; also fills the sigmas of `geometry`. False: singular.
+	bool Covariance(Geometry& geometry, Unknowns& x, Eigen::MatrixXd& covariance) const;
+};
+
+}
+
+#endif

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "solve/solve_lens.h"
+
+#include "model/lens_model.h"
+#include "solve/blur_fit.h"
+#include <tiltcal/error.h>
+#include "solve/fill_solution.h"
+#include "solve/held_out.h"
+#include "solve/search_focus.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tiltcal
+{
+
+namespace
+{
+
+/// A model with more unknowns must foretell photographs better by 1 %: by chance alone a bowl does by some thousandths.
+const double WORTH_IT = 0.99;
+
+void RefuseTooFewEdges(const Task& task, const std::vector<Observation>& observations)
+{
+	std::vector<int> count(task.states.size(), 0);
+	for (const Observation& o : observations)
+		++count[o.state];
+	for (size_t s = 0; s < count.size(); ++s)
+		if (count[s] < 20)
+			throw Refused(fmt::format("state {}: only {} edges could be measured, 20 are needed: "
+				"use a smaller blur, a larger picture of the board, more photographs, or more --edges-per-photo", task.states[s].name, count[s]));
+}
+
+/// The edges, and a fit of them; `by_power` per state (search_focus.h).
+struct Fitted
+{
+	std::vector<Observation> observations;
+	double model_sigma = 0.5;
+	Unknowns x;
+	std::vector<char> by_power;
+};
+
+/// Fits everything from f.x on, with the common error that the residuals show.
+void Refine(LensModel model, const Task& task, double w_mm, Fitted& f)
+{
+	BlurFit fit{ model, f.observations, w_mm, f.model_sigma, task.priors };
+	for (int round = 0; round < 3; ++round)
+	{
+		if (fit.Minimise(f.x, Free::EVERYTHING, 0) >= 1e300)
+			throw Refused("the blur fit did not converge");
+		fit.model_sigma = std::max(fit.Scale(f.x), 0.01);
+	}
+	f.model_sigma = fit.model_sigma;
+}
+
+/// From nothing: first with a coarse common error, then refined.
+Fitted FitFromNothing(LensModel model, const Task& task, const Geometry& geometry)
+{
+	Fitted f;
+	f.observations = Observe(task, geometry);
+	RefuseTooFewEdges(task, f.observations);
+	const double w_mm = geometry.w_px * task.pitch_mm;
+	const BlurFit fit{ model, f.observations, w_mm, f.model_sigma, task.priors };
+	f.x.state.assign(task.states.size(), StateNumbers{ 0, 0, 0 });
+	SearchUntilted(fit, task, geometry, f.x);
+	f.by_power.assign(task.states.size(), false);
+	for (size_t s = 1; s < task.states.size(); ++s)
+		f.by_power[s] = SearchTilted(fit, task, geometry, s, f.x);
+	Refine(model, task, w_mm, f);
+	return f;
+}
+
+Solution SolutionOf(LensModel model, const char* name, const Task& task, const Geometry& geometry, const Fitted& f)
+{
+	const BlurFit fit{ model, f.observations, geometry.w_px * task.pitch_mm, f.model_sigma, task.priors };
+	Solution solution;
+	solution.model = name;
+	FillSolution(task, geometry, fit, f.x, fit.CovarianceOfPlanes(f.x, geometry.w_px_sigma * task.pitch_mm), solution);
+	for (size_t s = 0; s < f.by_power.size(); ++s)
+		solution.states[s].chosen_by_power = f.by_power[s];
+	RefuseUndetermined(task, solution);
+	return solution;
+}
+
+HeldOut LeaveOut(LensModel model, const Task& task, const Geometry& geometry, const Fitted& f, double most)
+{
+	return HoldOut({ model, f.observations, geometry.w_px * task.pitch_mm, f.model_sigma, task.priors }, f.x, most);
+}
+
+void Keep(const HeldOut& held_out, Solution& solution)
+{
+	solution.held_out_px = held_out.rms;
+	solution.left_out = held_out.photos;
+}
+
+/// The bowl, or the two of an astigmatic lens where that foretells photographs better. `plane`: where to start.
+Solution Curve(const Task& task, const Geometry& geometry, const Fitted& plane, double most)
+{
+	const double w_mm = geometry.w_px * task.pitch_mm;
+	Fitted one = plane;
+	Refine(LensModel::BOWL, task, w_mm, one);
+	Fitted two = one;
+	Refine(LensModel::BOWLS, task, w_mm, two);
+	const HeldOut of_one = LeaveOut(LensModel::BOWL, task, geometry, one, most), of_two = LeaveOut(LensModel::BOWLS, task, geometry, two, most);
+	const bool apart = of_two.rms < WORTH_IT * of_one.rms;
+	Solution solution = apart ? SolutionOf(LensModel::BOWLS, "curved", task, geometry, two) : SolutionOf(LensModel::BOWL, "curved", task, geometry, one);
+	Keep(apart ? of_two : of_one, solution);
+	return solution;
+}
+
+/// What a difference counts at most in a held-out error: as much for every model.
+double MostOf(const Fitted& plane) { return 5 * plane.model_sigma; }
+
+}
+
+Solution SolvePlane(const Task& task, const Geometry& geometry)
+{
+	return SolutionOf(LensModel::PLANE, "plane", task, geometry, FitFromNothing(LensModel::PLANE, task, geometry));
+}
+
+Solution SolveRigid(const Task& task, const Geometry& geometry)
+{
+	return SolutionOf(LensModel::RIGID, "rigid", task, geometry, FitFromNothing(LensModel::RIGID, task, geometry));
+}
+
+Solution SolveCurved(const Task& task, const Geometry& geometry)
+{
+	const Fitted plane = FitFromNothing(LensModel::PLANE, task, geometry);
+	return Curve(task, geometry, plane, MostOf(plane));
+}
+
+std::vector<Solution> CompareExact(const Task& task, const Geometry& geometry)
+{
+	const Fitted plane = FitFromNothing(LensModel::PLANE, task, geometry);
+	const double most = MostOf(plane);
+	std::vector<Solution> all;
+	const auto add = [&](const char* model, auto solve)
+	{
+		try
+		{
+			all.push_back(solve());
+		}
+		catch (const Error& e)
+		{
+			if (e.Code() != EXIT_REFUSED)
+				throw;
+			all.emplace_back();
+			all.back().model = model;
+			all.back().failure = e.what();
+		}
+	};
+	add("rigid", [&]
+	{
+		const Fitted rigid = FitFromNothing(LensModel::RIGID, task, geometry);
+		Solution s = SolutionOf(LensModel::RIGID, "rigid", task, geometry, rigid);
+		Keep(LeaveOut(LensModel::RIGID, task, geometry, rigid, most), s);
+		return s;
+	});
+	all.push_back(SolutionOf(LensModel::PLANE, "plane", task, geometry, plane));
+	Keep(LeaveOut(LensModel::PLANE, task, geometry, plane, most), all.back());
+	add("curved", [&] { return Curve(task, geometry, plane, most); });
+	return all;
+}
+
+bool CurvatureIsSeen(const Solution& plane, const Solution& curved)
+{
+	const auto significant = [](const Estimate& e) { return std::abs(e.value) > 2 * e.sigma; };
+	return curved.failure.empty() && significant(curved.field_curvature) && curved.held_out_px > 0 && curved.held_out_px < WORTH_IT * plane.held_out_px;
+}
+
+}

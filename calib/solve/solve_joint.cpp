@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "solve/solve_joint.h"
+
+#include "model/lens_model.h"
+#include "solve/fill_solution.h"
+#include "base/robust.h"
+#include "solve/solve_geometry.h"
+
+#include "lens/optics.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tiltcal
+{
+
+namespace
+{
+
+Unknowns UnknownsOf(const Solution& s)
+{
+	Unknowns x;
+	x.d = s.aperture_diameter.value;
+	x.floor_squared = s.psf_floor_px.value * s.psf_floor_px.value;
+	x.power = 1 / s.focal_length.value;
+	x.curvature = { s.field_curvature.value, 0.5 * (s.tangential_curvature.value - s.sagittal_curvature.value) };
+	for (const StateLens& state : s.states)
+		x.state.push_back(StateOfPlane(s.lens, state.q, s.w_mm.value));
+	return x;
+}
+
+ModelError ErrorOf(const std::vector<std::array<double, 2>>& residuals)
+{
+	const auto scale = [&](size_t k)
+	{
+		std::vector<double> r;
+		for (const auto& residual : residuals)
+			r.push_back(residual[k]);
+		return RobustSigma(std::move(r));
+	};
+	return { std::max(scale(0), 0.002), std::max(scale(1), 0.01) };
+}
+
+void SetNormals(const JointFit& fit, const Unknowns& x, Geometry& g)
+{
+	const double w_mm = g.w_px * fit.task.pitch_mm;
+	for (size_t s = 0; s < x.state.size(); ++s)
+		g.lens_normal[s] = tilt_lens::LensFromPlane(PlaneOfState(fit.model, &x.power, x.state[s].data(), w_mm), 1 / w_mm).normal;
+}
+
+}
+
+bool RefineJointly(const Task& task, Refinement kind, Geometry& geometry, Solution& solution)
+{
+	Geometry g = geometry;
+	Unknowns x = UnknownsOf(solution);
+	JointFit fit{ task, solution.lens, kind, {}, false };
+	for (int round = 0; round < 2; ++round)
+	{
+		fit.error = ErrorOf(fit.Residuals(g, x));
+		if (!fit.Minimise(g, x))
+			return false;
+		SetNormals(fit, x, g);
+	}
+	fit.error = ErrorOf(fit.Residuals(g, x));
+	Eigen::MatrixXd covariance;
+	if (!fit.Covariance(g, x, covariance))
+		return false;
+	MeasureReprojection(task, g);
+	Solution refined;
+	refined.model = solution.model;
+	refined.held_out_px = solution.held_out_px;
+	refined.left_out = solution.left_out;
+	const std::vector<Observation> observations = Observe(task, g);
+	FillSolution(task, g, { solution.lens, observations, g.w_px * task.pitch_mm, fit.error.blur, task.priors }, x, covariance, refined);
+	for (size_t s = 0; s < refined.states.size(); ++s)
+		refined.states[s].chosen_by_power = solution.states[s].chosen_by_power;
+	geometry = g;
+	solution = refined;
+	return true;
+}
+
+GeometryAlone TiltFromGeometryAlone(const Task& task, const Geometry& geometry, const Solution& solution)
+{
+	if (geometry.distortion_terms == 0 || !geometry.shared_poses)
+		return {};
+	Geometry g = geometry;
+	Unknowns x = UnknownsOf(solution);
+	JointFit fit{ task, solution.lens, Refinement::EDGES, {}, true };
+	for (int round = 0; round < 2; ++round)
+	{
+		fit.error = ErrorOf(fit.Residuals(g, x));
+		if (!fit.Minimise(g, x))
+			return {};
+	}
+	Eigen::MatrixXd covariance;
+	if (!fit.Covariance(g, x, covariance))
+		return {};
+	Solution alone;
+	const std::vector<Observation> observations = Observe(task, g);
+	FillSolution(task, g, { solution.lens, observations, g.w_px * task.pitch_mm, fit.error.blur, task.priors }, x, covariance, alone);
+	return { alone.states, { g.pupil_magnification, g.pupil_magnification_sigma } };
+}
+
+}

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include <algorithm>
+
+#include "lens/check_effects.h"
+#include "lens/effects.h"
+#include "lens/field_curvature.h"
+#include "lens/natural_vignetting.h"
+#include "lens/optical_vignetting.h"
+#include "lens/optics.h"
+#include "lens/pupil_magnification.h"
+
+namespace tilt_lens
+{
+
+namespace
+{
+
+// What each effect does to a ray. The formulas are in the headers named like the effects.
+
+void PassPupils(const TiltLens& lens, LensRay& ray)
+{
+	ray.pixel = DirectionFromExitPupil(lens.axis, lens.pupil_magnification, ray.pixel);
+	ray.v = DirectionBeforePupils(lens.normal, lens.pupil_magnification, ray.pixel);
+}
+
+void MagnifyColour(const TiltLens& lens, LensRay& ray)
+{
+	ray.v = LateralDirection(lens.normal, lens.lateral[ray.wavelength], ray.v);
+}
+
+void Undistort(const TiltLens& lens, LensRay& ray)
+{
+	ray.v = UndistortDirection(lens.distortion, lens.basis_x, lens.basis_y, lens.normal, ray.v);
+}
+
+void OpenDisc(const TiltLens&, LensRay& ray)
+{
+	ray.point = SquareToDisc(ray.lens_u, ray.lens_v);
+}
+
+void OpenBlades(const TiltLens& lens, LensRay& ray)
+{
+	ray.point = SquareToBlades(lens.blades, ray.lens_u, ray.lens_v);
+}
+
+void OpenSquare(const TiltLens&, LensRay& ray)
+{
+	ray.point = { 2.0 * ray.lens_u - 1.0, 2.0 * ray.lens_v - 1.0 };
+}
+
+void FocusOnPlane(const TiltLens& lens, LensRay& ray)
+{
+	ray.kappa = InverseFocusDistance(lens.inverse_focus, ray.v);
+}
+
+void FocusOnBowl(const TiltLens& lens, LensRay& ray)
+{
+	ray.kappa = InverseFocusDistanceOnBowl(lens.inverse_focus, lens.field_curvature, lens.normal, ray.v);
+}
+
+void FocusColour(const TiltLens& lens, LensRay& ray)
+{
+	ray.kappa = AxialFocus(lens.normal, lens.axial[ray.wavelength], ray.v, ray.kappa);
+}
+
+void LeaveLens(const TiltLens& lens, LensRay& ray)
+{
+	ray.S = ray.point.x * lens.lens_x + ray.point.y * lens.lens_y;
+	ray.R = RayDirection(ray.v, ray.S, ray.kappa);
+}
+
+void DarkenNaturally(const TiltLens& lens, LensRay& ray)
+{
+	ray.weight *= NaturalFalloff(lens.normal, lens.axis, ray.pixel);
+}
+
+void CutByRim(const TiltLens& lens, LensRay& ray)
+{
+	if(!PassesRim(ViewOfRim(lens.normal, ray.v, ray.kappa, lens.rims[0].distance), ray.S, lens.rims[0].radius))
+		ray.weight = 0.0;
+}
+
+void CutByRims(const TiltLens& lens, LensRay& ray)
+{
+	for(int i = 0; i < lens.rim_count; i++)
+	{
+		const Rim& rim = lens.rims[i];
+		const RimView<double> view = rim.distance < 0.0
+			? ViewOfRimBehind(lens.normal, lens.axis, ray.pixel, lens.image_distance, lens.pupil_magnification, rim.distance)
+			: ViewOfRim(lens.normal, ray.v, ray.kappa, rim.distance);
+		if(!PassesRim(view, ray.S, rim.radius))
+		{
+			ray.weight = 0.0;
+			return;
+		}
+	}
+}
+
+bool Always(const TiltLens&) { return true; }
+bool MagnifiesPupils(const TiltLens& lens) { return lens.pupil_magnification != 1.0; }
+bool MagnifiesColours(const TiltLens& lens) { return lens.lateral[RedWavelength] != 0.0 || lens.lateral[BlueWavelength] != 0.0; }
+bool FocusesColours(const TiltLens& lens) { return lens.axial[RedWavelength] != 0.0 || lens.axial[BlueWavelength] != 0.0; }
+bool Distorts(const TiltLens& lens) { return lens.distorts; }
+bool IsRound(const TiltLens& lens) { return lens.blades.count == 0 && !lens.square; }
+bool HasBlades(const TiltLens& lens) { return lens.blades.count > 0; }
+bool IsSquare(const TiltLens& lens) { return lens.square; }
+bool HasBokeh(const TiltLens& lens) { return lens.bokeh; }
+bool IsShifted(const TiltLens& lens) { return lens.shifted; }
+bool IsFlat(const TiltLens& lens) { return !lens.Curves(); }
+bool IsCurved(const TiltLens& lens) { return lens.Curves(); }
+bool FallsOff(const TiltLens& lens) { return lens.natural_vignetting; }
+bool HasRims(const TiltLens& lens) { return lens.rim_count > 0; }
+/// The usual case, for which no ray has to ask.
+bool HasOneBefore(const TiltLens& lens) { return lens.rim_count == 1 && !(lens.rims[0].distance < 0.0); }
+bool HasOthers(const TiltLens& lens) { return HasRims(lens) && !HasOneBefore(lens); }
+
+/// All there is, in the order in which a ray meets it. Those without a word are the lens itself;
+/// those without a step cost rays nothing here.
+const struct
+{
+	const char *word;
+	bool (*is_on)(const TiltLens& lens);
+	LensStep step;
+	bool moves_pinhole_rays;        ///< does something without an opening too
+}
+Order[] =
+{
+	{ "shift", &IsShifted, NULL, false },       // of the window, once (lens_spec.cpp)
+	{ "pupil_magnification", &MagnifiesPupils, &PassPupils, true },
+	{ "chromatic lateral", &MagnifiesColours, &MagnifyColour, true },
+	{ "distortion", &Distorts, &Undistort, true },
+	{ "", &IsRound, &OpenDisc, false },
+	{ "blades", &HasBlades, &OpenBlades, false },
+	{ "", &IsSquare, &OpenSquare, false },
+	{ "bokeh", &HasBokeh, NULL, false },        // weighs the light when it is there (trace_tilt_lens.cpp)
+	{ "", &IsFlat, &FocusOnPlane, false },
+	{ "field_curvature", &IsCurved, &FocusOnBowl, false },
+	{ "chromatic axial", &FocusesColours, &FocusColour, false },
+	{ "", &Always, &LeaveLens, false },
+	{ "vignetting natural", &FallsOff, &DarkenNaturally, true },
+	{ "vignetting optical", &HasOneBefore, &CutByRim, true },
+	{ "vignetting optical", &HasOthers, &CutByRims, true }
+};
+
+void Take(const LensSpec& spec, TiltLens& lens)
+{
+	lens.distorts = spec.distortion_given;
+	std::copy(spec.distortion, spec.distortion + DistortionTerms, lens.distortion);
+	lens.field_curvature = spec.field_curvature.value;
+	if(spec.blades)
+		lens.blades = MakeBlades(int(spec.blades.value), spec.blade_rotation.value * 3.14159265358979323846 / 180.0, spec.blade_curvature.value);
+	lens.bokeh = spec.bokeh && !lens.IsPinhole();
+	lens.square = spec.bokeh && !spec.blades;
+	lens.shifted = spec.shift.value.x != 0.0 || spec.shift.value.y != 0.0;
+	lens.pupil_magnification = spec.pupil_magnification ? spec.pupil_magnification.value : 1.0;
+	lens.natural_vignetting = spec.natural_vignetting;
+	std::copy(spec.rims, spec.rims + spec.rim_count, lens.rims);
+	lens.rim_count = spec.rim_count;
+	std::copy(spec.lateral, spec.lateral + Wavelengths, lens.lateral);
+	std::copy(spec.axial, spec.axial + Wavelengths, lens.axial);
+}
+
+static_assert(sizeof(Order) / sizeof(Order[0]) <= MostLensSteps, "raise MostLensSteps");
+
+void SettleSteps(TiltLens& lens)
+{
+	int n = 0;
+	for(const auto& effect : Order)
+	{
+		if(effect.step == NULL || !effect.is_on(lens))
+			continue;
+		lens.steps[n++] = effect.step;
+		lens.has_effects |= effect.word[0] != '\0' || effect.step == &OpenSquare;
+		lens.moves_pinhole_rays |= effect.moves_pinhole_rays;
+	}
+	lens.steps[n] = NULL;
+	lens.weighs = FallsOff(lens) || HasRims(lens);
+	lens.splits = MagnifiesColours(lens) || FocusesColours(lens);
+}
+
+}
+
+void ResolveEffects(const LensSpec& spec, const CameraVectors& camera, TiltLens& lens)
+{
+	CheckEffectWords(spec);
+	Take(spec, lens);
+	if(lens.distorts)
+		CheckDistortion(lens, camera);
+	CheckFocus(lens, camera);
+	CheckRims(lens);
+	SettleSteps(lens);
+}
+
+std::string EffectNames(const TiltLens& lens)
+{
+	std::string names;
+	for(const auto& effect : Order)
+		if(effect.word[0] != '\0' && effect.is_on(lens))
+			names += (names.empty() ? "" : ", ") + std::string(effect.word);
+	return names;
+}
+
+}

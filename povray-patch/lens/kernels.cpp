@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+
+#include "lens/kernels.h"
+
+namespace tilt_lens
+{
+
+int Reflected(int i, int n)
+{
+	if(n == 1)
+		return 0;
+	const int period = 2 * (n - 1);
+	i = std::abs(i) % period;
+	return i < n ? i : period - i;
+}
+
+namespace
+{
+
+// Elementwise additions in the order of the taps: any width of vectors gives the same bits.
+#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__SANITIZE_ADDRESS__)
+	#define TILT_LENS_VECTORS __attribute__((target_clones("avx2", "default")))
+#else
+	#define TILT_LENS_VECTORS
+#endif
+
+// GCC's and clang's vectors: plain loops over an array of sums are not kept in registers.
+typedef float Lanes __attribute__((vector_size(32), aligned(4), may_alias));
+const int LaneCount = sizeof(Lanes) / sizeof(float), Together = 4 * LaneCount;
+
+/// target[x] = sum of taps, 0 <= x < count; a tap's source is source + offset.
+TILT_LENS_VECTORS
+void SumTaps(const float *source, const std::ptrdiff_t *offset, const float *weight, size_t taps, float *target, int count)
+{
+	int x = 0;
+	for(; x + Together <= count; x += Together)
+	{
+		Lanes a = {}, b = {}, c = {}, d = {};
+		for(size_t t = 0; t < taps; t++)
+		{
+			const Lanes *from = reinterpret_cast<const Lanes *>(source + offset[t] + x);
+			a += weight[t] * from[0];
+			b += weight[t] * from[1];
+			c += weight[t] * from[2];
+			d += weight[t] * from[3];
+		}
+		Lanes *to = reinterpret_cast<Lanes *>(target + x);
+		to[0] = a;
+		to[1] = b;
+		to[2] = c;
+		to[3] = d;
+	}
+	for(; x < count; x++)
+	{
+		float sum = 0.0f;
+		for(size_t t = 0; t < taps; t++)
+			sum += weight[t] * source[offset[t] + x];
+		target[x] = sum;
+	}
+}
+
+/// The sum of taps at every pixel, except so many columns and rows along the edges.
+void Convolve(const Plane& from, const std::vector<Tap>& taps, Plane& to, int columns, int rows)
+{
+	std::vector<std::ptrdiff_t> offsets;
+	std::vector<float> weights;
+	for(const Tap& tap : taps)
+	{
+		offsets.push_back(std::ptrdiff_t(tap.dy) * from.width + tap.dx);
+		weights.push_back(tap.weight);
+	}
+	for(int y = rows; y < from.height - rows; y++)
+	{
+		const size_t at = size_t(y) * from.width + columns;
+		SumTaps(&from.v[at], offsets.data(), weights.data(), taps.size(), &to.v[at], from.width - 2 * columns);
+	}
+}
+
+std::vector<float> HalfGaussian(double sigma, int reach)
+{
+	std::vector<float> half;
+	double sum = 0.0;
+	for(int i = 0; i <= reach; i++)
+	{
+		half.push_back(float(std::exp(-0.5 * i * i / (sigma * sigma))));
+		sum += half.back() * (i > 0 ? 2.0 : 1.0);
+	}
+	for(float& w : half)
+		w = float(w / sum);
+	return half;
+}
+
+/// Separable convolution with weights half[|i|], columns after rows; not on `edge` >= the
+/// kernel's reach pixels along the edges.
+void Separable(const Plane& p, const std::vector<float>& half, int edge, Plane& rows, Plane& result)
+{
+	std::vector<Tap> across, down;
+	for(int i = 1 - int(half.size()); i < int(half.size()); i++)
+	{
+		across.push_back({ i, 0, half[std::abs(i)] });
+		down.push_back({ 0, i, half[std::abs(i)] });
+	}
+	Convolve(p, across, rows, edge, 0);
+	Convolve(rows, down, result, edge, edge);
+}
+
+}
+
+Kernel::Kernel(double along, double across, double angle)
+{
+	const int reach = std::min(KernelReach, int(std::ceil(2.5 * std::max(along, across))));
+	if(along == across)
+	{
+		half = HalfGaussian(along, reach);
+		return;
+	}
+	double sum = 0.0;
+	for(int y = -reach; y <= reach; y++)
+		for(int x = -reach; x <= reach; x++)
+		{
+			const double u = (x * std::cos(angle) + y * std::sin(angle)) / along;
+			const double v = (y * std::cos(angle) - x * std::sin(angle)) / across;
+			const double w = std::exp(-0.5 * (u * u + v * v));
+			if(((x == 0) && (y == 0)) || (w < 2e-3))
+				continue;
+			taps.push_back({ x, y, float(w) });
+			sum += w;
+		}
+	for(Tap& tap : taps)
+	{
+		tap.weight = float(tap.weight / sum);
+		squares.push_back({ tap.dx, tap.dy, tap.weight * tap.weight });
+	}
+}
+
+void Kernel::Apply(const Plane& p, bool squared, Plane& rows, Plane& result) const
+{
+	if(half.empty())
+	{
+		Convolve(p, squared ? squares : taps, result, KernelReach, KernelReach);
+		return;
+	}
+
+	// The centre is taken out of the separable kernel afterwards.
+	const float centre = half[0] * half[0], rest = 1.0f - centre;
+	std::vector<float> weights = half;
+	if(squared)
+		for(float& w : weights)
+			w *= w;
+	const float out = squared ? centre * centre : centre, scale = squared ? 1.0f / (rest * rest) : 1.0f / rest;
+	Separable(p, weights, KernelReach, rows, result);
+	for(size_t i = 0; i < result.v.size(); i++)
+		result.v[i] = (result.v[i] - out * p.v[i]) * scale;
+}
+
+std::vector<Kernel> AllKernels()
+{
+	const double pi_4 = 0.78539816339744830962;
+	std::vector<Kernel> kernels;
+	for(double sigma : { 0.5, 0.8, 1.2, 1.8, 2.7, 4.0 })
+		kernels.push_back(Kernel(sigma, sigma, 0.0));
+	for(double along : { 1.0, 2.0, 4.0 })
+		for(int direction = 0; direction < 4; direction++)
+			kernels.push_back(Kernel(along, 0.35, direction * pi_4));
+	return kernels;
+}
+
+void Smooth(const Plane& p, Plane& rows, Plane& result)
+{
+	static const std::vector<float> half = HalfGaussian(2.0, SmoothingReach);
+	Separable(p, half, SmoothingReach, rows, result);
+}
+
+}

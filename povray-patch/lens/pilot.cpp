@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include <cmath>
+#include <cstdio>
+
+#include "lens/pilot.h"
+
+namespace tilt_lens
+{
+
+PilotRequest ParsePilotRequest(const char *text)
+{
+	PilotRequest request;
+	int at = 0;
+
+	if((text != nullptr) && (std::sscanf(text, "%d,%d,%n", &request.blocks, &request.samples, &at) == 2) && (at > 0) &&
+	   (request.blocks > 0) && (request.samples > 1) && ((request.samples & (request.samples - 1)) == 0) && (text[at] != '\0'))
+		request.file = text + at;
+	else
+		request.blocks = 0;
+	return request;
+}
+
+std::vector<bool> PilotBlocks(const PilotRequest& request, int width, int height)
+{
+	const int columns = (width + PilotBlockSize - 1) / PilotBlockSize;
+	const int rows = (height + PilotBlockSize - 1) / PilotBlockSize;
+	std::vector<bool> chosen(size_t(columns) * rows, request.blocks >= columns * rows);
+
+	// Steps of 1/p and 1/p^2, p^3 = p + 1.
+	for(int i = 0; (i < request.blocks) && !chosen.empty(); i++)
+	{
+		const double x = std::fmod(0.5 + i * 0.7548776662466927, 1.0), y = std::fmod(0.5 + i * 0.5698402909980532, 1.0);
+		chosen[size_t(y * rows) * columns + size_t(x * columns)] = true;
+	}
+	return chosen;
+}
+
+std::string PilotText(int left, int top, int width, int height, double seconds, const std::vector<std::vector<PilotLevel> >& pixels)
+{
+	char number[160];
+	std::string text;
+
+	std::snprintf(number, sizeof(number), "block %d %d %d %d %.6g\n", left, top, width, height, seconds);
+	text += number;
+	for(size_t i = 0; i < pixels.size(); i++)
+	{
+		for(size_t k = 0; k < pixels[i].size(); k++)
+		{
+			const PilotLevel& l = pixels[i][k];
+			std::snprintf(number, sizeof(number), "%s%d %.9g %.9g %.9g %.9g", k > 0 ? " " : "", l.samples, l.mean[0], l.mean[1], l.mean[2], l.variance);
+			text += number;
+		}
+		text += "\n";
+	}
+	return text;
+}
+
+}
