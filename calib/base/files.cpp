@@ -125,13 +125,13 @@ void PrepareFolder(const std::string& folder)
 	std::error_code code;
 	fs::create_directories(folder, code);
 	if (code || !fs::is_directory(folder))
-		throw FileError(fmt::format("{}: cannot create this folder ({}); give another with --out",
+		throw FileError(fmt::format("{}: cannot create this folder ({}); give another with `out`",
 			folder, code ? code.message() : "a file of this name is in the way"));
 	const std::string probe = Join(folder, fmt::format(".tiltcal.{}", getpid()));
 	const bool written = static_cast<bool>(std::ofstream(probe) << "probe");
 	fs::remove(probe, code);
 	if (!written)
-		throw FileError(fmt::format("{}: cannot write in this folder; change its permissions or give another with --out", folder));
+		throw FileError(fmt::format("{}: cannot write in this folder; change its permissions or give another with `out`", folder));
 }
 
 void PrepareFolderOf(const std::string& file)

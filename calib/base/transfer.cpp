@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
-#include "base/transfer.h"
+#include <tiltcal/transfer.h>
 
 #include <tiltcal/error.h>
 
@@ -22,7 +22,7 @@ Transfer ParseTransfer(const std::string& text)
 	char* end = nullptr;
 	const double gamma = std::strtod(text.c_str(), &end);
 	if (text.empty() || *end != '\0' || !(gamma >= 0.1 && gamma <= 10))
-		throw UsageError(fmt::format("--transfer {}: give srgb, linear or a gamma between 0.1 and 10, such as 2.2", text));
+		throw UsageError(fmt::format("`transfer` {}: give srgb, linear or a gamma between 0.1 and 10, such as 2.2", text));
 	return { Transfer::GAMMA, gamma };
 }
 

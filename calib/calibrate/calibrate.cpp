@@ -5,7 +5,10 @@
 #include "measure/bright_patches.h"
 #include "effects/chromatic_fit.h"
 #include <tiltcal/error.h>
+#include "calibrate/quiet.h"
 #include "calibrate/exif_check.h"
+#include "calibrate/measure_all.h"
+#include "calibrate/verdict.h"
 #include "base/files.h"
 #include "picture/image_io.h"
 #include "measure/measure.h"
@@ -13,10 +16,10 @@
 #include "solve/solve_lens.h"
 #include "solve/solve_geometry.h"
 #include "solve/solve_joint.h"
+#include "effects/effects.h"
 #include "effects/vignetting.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 #include "lens/optics.h"
 
 #include <algorithm>
@@ -30,7 +33,7 @@ namespace
 /// Above this a picture rendered without distortion is visibly not the photograph, px.
 const double PINHOLE_RMS = 0.4;
 
-void LogPhoto(const Photo& photo, size_t number, size_t total)
+void LogPhoto(const Photo& photo, size_t number, size_t total, const Log& log)
 {
 	double least = photo.edges.empty() ? 0 : 1e9, most = 0;
 	for (const Edge& e : photo.edges)
@@ -38,13 +41,13 @@ void LogPhoto(const Photo& photo, size_t number, size_t total)
 		least = std::min(least, e.blur);
 		most = std::max(most, e.blur);
 	}
-	spdlog::info("[{}/{}] {}: {}, blur {:.1f} to {:.1f} px; {}", number, total, photo.file,
-		CountText(photo), least, most, RatioText(photo));
+	log.Info(fmt::format("[{}/{}] {}: {}, blur {:.1f} to {:.1f} px; {}", number, total, photo.file,
+		CountText(photo), least, most, RatioText(photo)));
 	if (photo.edges_dropped > 0)
-		spdlog::warn("{}: {} of {} edges left out, too blurred or too noisy", photo.file, photo.edges_dropped,
-			photo.edges_dropped + int(photo.edges.size()));
+		log.Warn(fmt::format("{}: {} of {} edges left out, too blurred or too noisy", photo.file, photo.edges_dropped,
+			photo.edges_dropped + int(photo.edges.size())));
 	if (photo.saturated_share > 0.05)
-		spdlog::warn("{}: {:.0f} % of the edges have a clipped bright side, which narrows their blur: expose less", photo.file, 100 * photo.saturated_share);
+		log.Warn(fmt::format("{}: {:.0f} % of the edges have a clipped bright side, which narrows their blur: expose less", photo.file, 100 * photo.saturated_share));
 }
 
 /// All pictures come from one sensor.
@@ -70,17 +73,17 @@ std::vector<Vec3<double>> LensNormals(const Solution& s)
 
 /// A photograph whose corners disagree with the rest is of another camera or board, or
 /// was cropped; it should not be averaged in unnoticed.
-void WarnOfOddPhotos(const Task& task, const Geometry& g)
+void WarnOfOddPhotos(const Task& task, const Geometry& g, const Log& log)
 {
 	std::vector<double> all;
-	for (const auto& state : g.photo_rms)
-		all.insert(all.end(), state.begin(), state.end());
+	for (const StateGeometry& state : g.states)
+		all.insert(all.end(), state.photo_rms.begin(), state.photo_rms.end());
 	const double median = Median(all);
-	for (size_t s = 0; s < g.photo_rms.size(); ++s)
-		for (size_t p = 0; p < g.photo_rms[s].size(); ++p)
-			if (g.photo_rms[s][p] > 5 * median + 0.3)
-				spdlog::warn("{}: its corners fit badly ({:.2f} px, others {:.2f} px): is it of the same camera and board?",
-					task.states[s].photos[p].file, g.photo_rms[s][p], median);
+	for (size_t s = 0; s < g.states.size(); ++s)
+		for (size_t p = 0; p < g.states[s].photo_rms.size(); ++p)
+			if (g.states[s].photo_rms[p] > 5 * median + 0.3)
+				log.Warn(fmt::format("{}: its corners fit badly ({:.2f} px, others {:.2f} px): is it of the same camera and board?",
+					task.states[s].photos[p].file, g.states[s].photo_rms[p], median));
 }
 
 bool SameCounts(const Task& task)
@@ -93,49 +96,48 @@ bool SameCounts(const Task& task)
 
 /// A board that was moved between the states shows as a reprojection error of many
 /// pixels; the little that the pupil moves when the lens tilts does not double it.
-bool PosesAreShared(const Task& task, const std::vector<Vec3<double>>& normals, Poses poses)
+bool PosesAreShared(const Task& task, const std::vector<Vec3<double>>& normals, const CalibrateOptions& o)
 {
-	if (task.states.size() < 2 || poses == Poses::OWN)
+	if (task.states.size() < 2 || o.poses == Poses::OWN)
 		return false;
 	if (!SameCounts(task))
 	{
-		if (poses == Poses::SHARED)
-			throw Refused("--poses shared: the states have different numbers of photographs");
+		if (o.poses == Poses::SHARED)
+			throw Refused("`poses` shared: the states have different numbers of photographs");
 		return false;
 	}
-	if (poses == Poses::SHARED)
+	if (o.poses == Poses::SHARED)
 		return true;
 	const double own = SolveGeometry(task, { 2, normals, false }).rms, shared = SolveGeometry(task, { 2, normals, true }).rms;
 	const bool same = shared < 2 * own + 0.1;
-	spdlog::info("board poses {} between the states: reprojection {:.3f} px if shared, {:.3f} px with own poses", same ? "shared" : "differ", shared, own);
+	o.log.Info(fmt::format("board poses {} between the states: reprojection {:.3f} px if shared, {:.3f} px with own poses", same ? "shared" : "differ", shared, own));
 	return same;
 }
 
 /// The exact model. The distortion turns with the lens, so lens and geometry are solved
 /// in turn: the lens moves the distortion's axis, the geometry hardly moves the lens.
-void SolveExact(const Task& task, const std::string& model, Poses poses, const EffectChoice& effects, Calibration& c)
+void SolveExact(const Task& task, const std::optional<Model>& model, const CalibrateOptions& o, Calibration& c)
 {
-	auto solve = model == "rigid" ? SolveRigid : model == "curved" ? SolveCurved : SolvePlane;
-	spdlog::info("solving geometry and lens ({})", model == "auto" ? "plane" : model);
+	auto solve = model == Model::RIGID ? SolveRigid : model == Model::CURVED ? SolveCurved : SolvePlane;
+	o.log.Info(fmt::format("solving geometry and lens ({})", NameOf(model.value_or(Model::PLANE))));
 	GeometryOptions options;
-	options.may_distort = !effects.Excludes("distortion");
+	options.may_distort = !o.effects.Excludes(EffectId::DISTORTION);
 	c.geometry = SelectGeometry(task, options);
 	c.solution = solve(task, c.geometry);
 	options.lens_normal = LensNormals(c.solution);
-	options.shared_poses = PosesAreShared(task, options.lens_normal, poses);
+	options.shared_poses = PosesAreShared(task, options.lens_normal, o);
 	for (int round = 0; round < 2; ++round)
 	{
 		c.geometry = SelectGeometry(task, options);
 		c.solution = solve(task, c.geometry);
 		options.lens_normal = LensNormals(c.solution);
 	}
-	if (model == "auto")
+	if (!model)
 	{
-		spdlog::info("comparing models");
+		o.log.Info("comparing models");
 		c.compared = CompareExact(task, c.geometry);
-		const Solution& plane = c.compared[1];
-		const Solution& curved = c.compared[2];
-		if (CurvatureIsSeen(plane, curved) || (effects.Wants("field_curvature") && curved.failure.empty()))
+		const Solution &plane = c.compared->plane, &curved = c.compared->curved;
+		if (CurvatureIsSeen(plane, curved) || (o.effects.Wants(EffectId::FIELD_CURVATURE) && curved.failure.empty()))
 		{
 			solve = SolveCurved;
 			options.lens_normal = LensNormals(curved);
@@ -144,40 +146,40 @@ void SolveExact(const Task& task, const std::string& model, Poses poses, const E
 		}
 		else
 			c.solution = plane;
-		spdlog::info("model {}: photographs left out are foretold to {:.3f} px by plane, {:.3f} px by curved", c.solution.model, plane.held_out_px, curved.held_out_px);
+		o.log.Info(fmt::format("model {}: photographs left out are predicted to {:.3f} px by plane, {:.3f} px by curved", NameOf(c.solution.model), plane.held_out_px, curved.held_out_px));
 	}
 	c.pinhole = SolveGeometry(task, { 0, {}, options.shared_poses });
 	c.render = c.geometry.distortion_terms ? solve(task, c.pinhole) : c.solution;
 }
 
-/// The model to solve where the effects asked for leave no choice. Throws UsageError where they contradict --model.
-std::string ModelFor(const std::string& model, const EffectChoice& effects)
+/// The model to solve where the effects asked for leave no choice. Throws UsageError where the two contradict each other.
+std::optional<Model> ModelFor(const CalibrateOptions& o)
 {
-	if (!effects.Excludes("field_curvature"))
-		return model;
-	if (model == "curved")
-		throw UsageError("--model curved has field curvature: add field_curvature to --effects, or leave out --model");
-	return model == "auto" ? "plane" : model;
+	if (!o.effects.Excludes(EffectId::FIELD_CURVATURE))
+		return o.model;
+	if (o.model == Model::CURVED)
+		throw UsageError("`model` curved has field curvature: add field_curvature to `effects`, or leave out `model`");
+	return o.model ? o.model : Model::PLANE;
 }
 
-void LogEffects(const Calibration& c)
+void LogEffects(const Calibration& c, const Log& log)
 {
 	if (!c.vignetting.failure.empty())
-		spdlog::info("vignetting not estimated: {}", c.vignetting.failure);
+		log.Info(fmt::format("vignetting not estimated: {}", c.vignetting.failure));
 	if (!c.chromatic.failure.empty())
-		spdlog::info("chromatic aberration not estimated: {}", c.chromatic.failure);
+		log.Info(fmt::format("chromatic aberration not estimated: {}", c.chromatic.failure));
 }
 
 /// Joint refinement; what blur alone and geometry alone say of the tilt is kept.
-void Refine(const Task& task, Refinement refinement, Calibration& c)
+void Refine(const Task& task, const CalibrateOptions& o, Calibration& c)
 {
 	c.blur_alone = c.solution.states;
 	c.geometry_alone = TiltFromGeometryAlone(task, c.geometry, c.solution);
-	if (refinement == Refinement::NONE)
+	if (o.refinement == Refinement::NONE)
 		return;
-	spdlog::info("refining geometry and lens together ({})", refinement == Refinement::EDGES ? "edges" : "photometric");
-	if (!RefineJointly(task, refinement, c.geometry, c.solution))
-		spdlog::warn("the joint refinement did not converge; geometry and blur are as solved one after the other");
+	o.log.Info(fmt::format("refining geometry and lens together ({})", o.refinement == Refinement::EDGES ? "edges" : "photometric"));
+	if (!RefineJointly(task, o.refinement, c.geometry, c.solution))
+		o.log.Warn("the joint refinement did not converge; geometry and blur are as solved one after the other");
 	else if (c.geometry.distortion_terms == 0)
 		c.render = c.solution;
 }
@@ -187,11 +189,18 @@ void Refine(const Task& task, Refinement refinement, Calibration& c)
 void CheckPitch(double pitch_mm)
 {
 	if (!(pitch_mm > 0 && pitch_mm < 1))
-		throw UsageError(fmt::format("--pitch {}: give the distance of pixel centres on the sensor in mm, such as 0.00655", pitch_mm));
+		throw UsageError(fmt::format("`pitch` {}: give the distance of pixel centres on the sensor in mm, such as 0.00655", pitch_mm));
 }
 
-Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, double pitch_mm, const Transfer& transfer, const DetectOptions& options, const EdgeChoice& choice)
+Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, double pitch_mm, const MeasureOptions& options)
 {
+	return MeasureAll(states, board, pitch_mm, options, {});
+}
+
+Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, double pitch_mm, const MeasureOptions& o, const SeePicture& see)
+{
+	const QuietLibraries quiet;
+	CheckPitch(pitch_mm);
 	Task task;
 	task.board = board;
 	task.pitch_mm = pitch_mm;
@@ -205,70 +214,77 @@ Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, doubl
 		state.tilted = !task.states.empty();
 		for (const std::string& file : s.files)
 		{
-			Photo photo = MeasurePhoto(file, board, transfer, options, choice);
-			LogPhoto(photo, ++number, total);
+			cv::Mat grey;
+			Photo photo = MeasurePhoto(file, board, o.transfer, { o.any_orientation }, { o.edges_per_photo, o.edge_phase }, &grey);
+			LogPhoto(photo, ++number, total, o.log);
 			CheckSize(task, photo);
 			state.photos.push_back(std::move(photo));
+			if (see)
+				see(grey);
 		}
 		task.states.push_back(std::move(state));
 	}
-	LogFacts(task);
+	LogFacts(task, o.log);
 	return task;
 }
 
-void AddFlatField(Task& task, size_t state, const std::string& file, const Transfer& transfer)
+void AddFlatField(Task& task, size_t state, const std::string& file, const MeasureOptions& o)
 {
-	const cv::Mat picture = ReadLinear(file, transfer);
+	const QuietLibraries quiet;
+	const cv::Mat picture = ReadLinear(file, o.transfer);
 	if (picture.cols != task.width || picture.rows != task.height)
-		throw Refused(fmt::format("--flat-field {}: is {}x{} pixels, the photographs of the board are {}x{}; all must come from the same camera, uncropped and not turned",
+		throw Refused(fmt::format("`flat_field` {}: is {}x{} pixels, the photographs of the board are {}x{}; all must come from the same camera, uncropped and not turned",
 			file, picture.cols, picture.rows, task.width, task.height));
 	task.flat_fields.push_back({ state, file, MeasureFlatField(picture, file) });
-	spdlog::info("{}: flat field of state {}, {} cells", file, task.states[state].name, task.flat_fields.back().patches.size());
+	o.log.Info(fmt::format("{}: flat field of state {}, {} cells", file, task.states[state].name, task.flat_fields.back().patches.size()));
 }
 
-Calibration Calibrate(const Task& task, const std::string& wanted_model, Poses poses, Refinement refinement, const EffectChoice& effects)
+Calibration Calibrate(const Task& task, const CalibrateOptions& o)
 {
+	const QuietLibraries quiet;
+	const Log& log = o.log;
 	Calibration c;
 	c.task = task;
-	const std::string model = ModelFor(wanted_model, effects);
-	if (model != "paper")
+	const std::optional<Model> model = ModelFor(o);
+	if (model != Model::PAPER)
 	{
-		SolveExact(task, model, poses, effects, c);
-		Refine(task, refinement, c);
+		SolveExact(task, model, o, c);
+		Refine(task, o, c);
 	}
 	else
 		c.geometry = c.pinhole = SolveGeometry(task, {});
-	WarnOfOddPhotos(task, c.geometry);
+	WarnOfOddPhotos(task, c.geometry, log);
 	for (size_t k = 0; k < task.states.size(); ++k)
-		if (c.geometry.principal_point_fixed[k])
-			spdlog::warn("state {}: the photographs do not determine the principal point; it is kept at the picture's centre. "
-				"Photograph the board in more, differently inclined poses", task.states[k].name);
+		if (c.geometry.states[k].principal_point_fixed)
+			log.Warn(fmt::format("state {}: the photographs do not determine the principal point; it is kept at the picture's centre. "
+				"Photograph the board in more, differently inclined poses", task.states[k].name));
 	for (size_t k = 0; k < c.solution.states.size(); ++k)
 		if (c.solution.states[k].chosen_by_power)
-			spdlog::warn("state {}: the blur alone fits two planes of focus; the one that keeps the focal length was taken. "
-				"Photograph more poses to be sure", task.states[k].name);
+			log.Warn(fmt::format("state {}: the blur alone fits two planes of focus; the one that keeps the focal length was taken. "
+				"Photograph more poses to be sure", task.states[k].name));
 	double worst = 0;
-	for (const auto& state : c.pinhole.photo_rms)
-		worst = std::max(worst, *std::max_element(state.begin(), state.end()));
-	spdlog::info("reprojection: {:.3f} px with {} distortion terms (w {:.3f} mm), {:.3f} px without (w {:.3f} mm)", c.geometry.rms,
-		c.geometry.distortion_terms, c.geometry.w_px * task.pitch_mm, c.pinhole.rms, c.pinhole.w_px * task.pitch_mm);
+	for (const StateGeometry& state : c.pinhole.states)
+		worst = std::max(worst, *std::max_element(state.photo_rms.begin(), state.photo_rms.end()));
+	log.Info(fmt::format("reprojection: {:.3f} px with {} distortion terms (w {:.3f} mm), {:.3f} px without (w {:.3f} mm)", c.geometry.rms,
+		c.geometry.distortion_terms, c.geometry.w_px * task.pitch_mm, c.pinhole.rms, c.pinhole.w_px * task.pitch_mm));
 	if (worst > PINHOLE_RMS)
-		spdlog::warn("a render without this lens's distortion misses the corners of the worst photograph by {:.2f} px RMS", worst);
+		log.Warn(fmt::format("a render without this lens's distortion misses the corners of the worst photograph by {:.2f} px RMS", worst));
 
-	spdlog::info("solving the lens (paper)");
+	log.Info("solving the lens (paper)");
 	c.paper = SolvePaper(task, c.pinhole, c.paper_geometry);
 	if (!c.paper.failure.empty())
 	{
-		if (model == "paper")
+		if (model == Model::PAPER)
 			throw Refused(c.paper.failure);
-		spdlog::warn("the paper's model, for comparison, gave no answer: {}", c.paper.failure);
+		log.Warn(fmt::format("the paper's model, for comparison, gave no answer: {}", c.paper.failure));
 	}
-	if (model == "paper")
+	if (model == Model::PAPER)
 		c.solution = c.render = c.paper;
 	c.vignetting = EstimateVignetting(c);
 	c.chromatic = EstimateChromatic(c);
-	LogEffects(c);
-	ChooseEffects(effects, c);
+	LogEffects(c, log);
+	ChooseEffects(o.effects, c);
+	c.verdict = Judge(c);
 	return c;
 }
 

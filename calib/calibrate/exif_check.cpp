@@ -5,7 +5,6 @@
 #include <tiltcal/error.h>
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cmath>
@@ -66,7 +65,7 @@ std::optional<double> CommonPitch(const std::vector<PhotographFacts>& all)
 
 /// Warns when `say` (empty: nothing said) differs between photographs, with an example of each.
 template<typename Say>
-void WarnOfDifference(const Task& task, const char* what, const char* consequence, const Say& say)
+void WarnOfDifference(const Task& task, const Log& log, const char* what, const char* consequence, const Say& say)
 {
 	std::map<std::string, std::string> first;   // what is said: by which file
 	for (const State& state : task.states)
@@ -78,7 +77,7 @@ void WarnOfDifference(const Task& task, const char* what, const char* consequenc
 	std::string list;
 	for (const auto& [said, file] : first)
 		list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", said, file);
-	spdlog::warn("EXIF: the photographs have different {}: {}; {}", what, list, consequence);
+	log.Warn(fmt::format("EXIF: the photographs have different {}: {}; {}", what, list, consequence));
 }
 
 std::string Number(const std::optional<double>& value, const char* unit) { return value ? fmt::format("{:.4g}{}", *value, unit) : ""; }
@@ -101,39 +100,39 @@ PhotographFacts CommonFacts(const std::vector<PhotographFacts>& all)
 
 PhotographFacts CommonFacts(const Task& task) { return CommonFacts(FactsOf(task)); }
 
-double PitchFromExif(const std::vector<std::string>& files)
+double PitchFromExif(const std::vector<std::string>& files, const Log& log)
 {
 	std::vector<PhotographFacts> all;
 	for (const std::string& file : files)
 	{
 		all.push_back(ReadFacts(file));
 		if (!all.back().pitch_mm)
-			throw UsageError(fmt::format("--pitch is required: {} does not say it (EXIF FocalPlaneXResolution, in a picture neither scaled nor cropped); "
+			throw UsageError(fmt::format("`pitch` is required: {} does not say it (EXIF FocalPlaneXResolution, in a picture neither scaled nor cropped); "
 				"give the distance of pixel centres on the sensor in mm, such as 0.00655", file));
 	}
 	const std::optional<double> pitch = CommonPitch(all);
 	if (!pitch)
-		throw UsageError("--pitch is required: the photographs' EXIF (FocalPlaneXResolution) differs; give the distance of pixel centres on the sensor in mm");
-	spdlog::info("pitch {:.6f} mm from EXIF (FocalPlaneXResolution), which makers round by up to some per cent: "
-		"where the data sheet says sensor width and pixels, give --pitch", *pitch);
+		throw UsageError("`pitch` is required: the photographs' EXIF (FocalPlaneXResolution) differs; give the distance of pixel centres on the sensor in mm");
+	log.Info(fmt::format("pitch {:.6f} mm from EXIF (FocalPlaneXResolution), which makers round by up to some per cent: "
+		"where the data sheet says sensor width and pixels, give `pitch`", *pitch));
 	return *pitch;
 }
 
-void LogFacts(const Task& task)
+void LogFacts(const Task& task, const Log& log)
 {
 	const PhotographFacts common = CommonFacts(task);
 	if (const std::string text = Describe(common); !text.empty())
-		spdlog::info("EXIF: {}", text);
-	WarnOfDifference(task, "cameras", "a calibration is of one sensor", [](const PhotographFacts& f) { return f.model.empty() ? "" : f.make + " " + f.model; });
-	WarnOfDifference(task, "lenses", "a calibration is of one lens", [](const PhotographFacts& f) { return f.lens; });
-	WarnOfDifference(task, "focal lengths", "a calibration is of one setting of zoom and focus", [](const PhotographFacts& f) { return Number(f.focal_length_mm, " mm"); });
-	WarnOfDifference(task, "f-numbers", "the aperture is taken to be one for all of them", [](const PhotographFacts& f) { return Number(f.f_number, ""); });
+		log.Info("EXIF: " + text);
+	WarnOfDifference(task, log, "cameras", "a calibration is of one sensor", [](const PhotographFacts& f) { return f.model.empty() ? "" : f.make + " " + f.model; });
+	WarnOfDifference(task, log, "lenses", "a calibration is of one lens", [](const PhotographFacts& f) { return f.lens; });
+	WarnOfDifference(task, log, "focal lengths", "a calibration is of one setting of zoom and focus", [](const PhotographFacts& f) { return Number(f.focal_length_mm, " mm"); });
+	WarnOfDifference(task, log, "f-numbers", "the aperture is taken to be one for all of them", [](const PhotographFacts& f) { return Number(f.f_number, ""); });
 	bool turned = false;
 	for (const PhotographFacts& facts : FactsOf(task))
 		turned = turned || facts.orientation != 1;
 	if (turned)
-		spdlog::info("EXIF orientation is not applied: a calibration is in sensor coordinates, so viewers show these photographs turned against it");
-	WarnOfDifference(task, "orientations", "this is not applied, but was the camera turned between them, and the board not?",
+		log.Info("EXIF orientation is not applied: a calibration is in sensor coordinates, so viewers show these photographs turned against it");
+	WarnOfDifference(task, log, "orientations", "this is not applied, but was the camera turned between them, and the board not?",
 		[](const PhotographFacts& f) { return fmt::format("{}", f.orientation); });
 }
 
@@ -145,14 +144,14 @@ std::vector<std::string> CompareWithExif(const Calibration& c)
 	const double f = s.focal_length.value, d = s.aperture_diameter.value;
 	if (facts.focal_length_mm && f > 0 && std::abs(f / *facts.focal_length_mm - 1) > FAR_FOCAL_LENGTH + 3 * s.focal_length.sigma / f)
 		words.push_back(fmt::format("focal length f {:.2f} +- {:.2f} mm, EXIF {:g} mm (engraved, rounded, for infinity; to compare with f, not with the image distance w {:.2f} mm). "
-			"Believe f if --pitch is right and the photographs were not scaled, for f is proportional to the pitch; many lenses also shorten f when focused near. Else EXIF may be of another lens",
+			"Believe f if `pitch` is right and the photographs were not scaled, for f is proportional to the pitch; many lenses also shorten f when focused near. Else EXIF may be of another lens",
 			f, s.focal_length.sigma, *facts.focal_length_mm, s.w_mm.value));
 	if (facts.f_number && f > 0 && d > 0)
 	{
 		const double number = f / d, relative = std::hypot(s.focal_length.sigma / f, s.aperture_diameter.sigma / d);
 		if (std::abs(std::log(number / *facts.f_number)) > FAR_F_NUMBER + 3 * relative)
 			words.push_back(fmt::format("f-number f/d {:.2f} +- {:.2f}, EXIF {:.3g} (the marked stop, rounded). Believe d {:.2f} mm for rendering: it is what blurred these photographs; "
-				"but a wrong --transfer, --pitch or --square shows here too, and a lens with its own aperture ring writes no f-number that is true", number, number * relative, *facts.f_number, d));
+				"but a wrong `transfer`, `pitch` or `square` shows here too, and a lens with its own aperture ring writes no f-number that is true", number, number * relative, *facts.f_number, d));
 	}
 	return words;
 }

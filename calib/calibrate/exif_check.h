@@ -6,6 +6,7 @@
 #define TILTCAL_EXIF_CHECK_H
 
 #include <tiltcal/calibration.h>
+#include <tiltcal/log.h>
 #include "picture/exif.h"
 
 #include <nlohmann/json.hpp>
@@ -24,10 +25,10 @@ PhotographFacts CommonFacts(const Task& task);
 
 /// Pitch from EXIF, mm, logged; 0.2 % is the most by which photographs may differ. Throws UsageError
 /// that asks for --pitch when they do not say it; FileError.
-double PitchFromExif(const std::vector<std::string>& files);
+double PitchFromExif(const std::vector<std::string>& files, const Log& log);
 
 /// Logs the facts; warns when photographs of the task disagree, and of orientations that are not applied.
-void LogFacts(const Task& task);
+void LogFacts(const Task& task, const Log& log);
 
 /// A sentence for each of f and f-number that lies far from EXIF's, with which to believe and why; usually none.
 std::vector<std::string> CompareWithExif(const Calibration& calibration);

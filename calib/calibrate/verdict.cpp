@@ -33,7 +33,7 @@ public:
 				Tilt(s);
 			BothSides(s);
 			OnePhotograph(s);
-			Tellers(s);
+			BlurAgainstGeometry(s);
 		}
 		Priors();
 		Correlations();
@@ -48,7 +48,7 @@ private:
 		verdict.grade = std::max(verdict.grade, grade);
 	}
 
-	const std::string& NameOf(size_t s) const { return c.task.states[s].name; }
+	const std::string& StateName(size_t s) const { return c.task.states[s].name; }
 
 	void ImageDistance()
 	{
@@ -56,9 +56,9 @@ private:
 		if (relative > 0.003)
 			Say(relative > 0.01 ? Grade::POOR : Grade::FAIR, fmt::format("the image distance is known to {:.1f} % only: photograph the board inclined by "
 				"30 to 45 degrees in several directions, and filling the picture", 100 * relative));
-		for (size_t s = 0; s < c.geometry.principal_point_fixed.size(); ++s)
-			if (c.geometry.principal_point_fixed[s])
-				Say(Grade::FAIR, fmt::format("state {}: the principal point was taken to be the picture's centre: photograph the board in at least three poses", NameOf(s)));
+		for (size_t s = 0; s < c.geometry.states.size(); ++s)
+			if (c.geometry.states[s].principal_point_fixed)
+				Say(Grade::FAIR, fmt::format("state {}: the principal point was taken to be the picture's centre: photograph the board in at least three poses", StateName(s)));
 	}
 
 	void Tilt(size_t s)
@@ -66,9 +66,9 @@ private:
 		const StateLens& lens = c.solution.states[s];
 		if (lens.lens_tilt.sigma > 0.03)
 			Say(lens.lens_tilt.sigma > 0.15 ? Grade::POOR : Grade::FAIR, fmt::format("state {}: the tilt is known to {:.2f} degrees only: photograph the board in more poses, "
-				"inclined so that it is sharp in one part and blurred in another", NameOf(s), lens.lens_tilt.sigma));
+				"inclined so that it is sharp in one part and blurred in another", StateName(s), lens.lens_tilt.sigma));
 		if (lens.chosen_by_power)
-			Say(Grade::POOR, fmt::format("state {}: two planes of focus fit the blur, and the one that keeps the focal length was taken: photograph more poses", NameOf(s)));
+			Say(Grade::POOR, fmt::format("state {}: two planes of focus fit the blur, and the one that keeps the focal length was taken: photograph more poses", StateName(s)));
 	}
 
 	/// Blur does not show its sign: with one side of the focus only, focus and aperture hide behind each other.
@@ -79,14 +79,14 @@ private:
 		{
 			if (o.state != s)
 				continue;
-			const double kappa = tilt_lens::InverseFocusDistanceOnBowl(c.solution.states[s].q, c.solution.field_curvature.value, c.geometry.lens_normal[s], o.P);
+			const double kappa = tilt_lens::InverseFocusDistanceOnBowl(c.solution.states[s].q, c.solution.field_curvature.value, c.geometry.states[s].lens_normal, o.P);
 			front += kappa < 1;
 			++all;
 		}
 		const double share = all ? double(std::min(front, all - front)) / all : 0;
 		if (share < 0.05)
 			Say(share < 0.01 ? Grade::FAIR : Grade::GOOD, fmt::format("state {}: {:.0f} % of the edges lie on one side of the plane of focus: photograph boards that reach through it",
-				NameOf(s), 100 * (1 - share)));
+				StateName(s), 100 * (1 - share)));
 	}
 
 	void OnePhotograph(size_t s)
@@ -96,16 +96,16 @@ private:
 			if (l.state == s && (!worst || l.tilt_change > worst->tilt_change))
 				worst = &l;
 		if (s > 0 && !worst)
-			Say(Grade::FAIR, fmt::format("state {}: one photograph alone cannot be checked against others: photograph at least three poses", NameOf(s)));
+			Say(Grade::FAIR, fmt::format("state {}: one photograph alone cannot be checked against others: photograph at least three poses", StateName(s)));
 		if (s == 0 || !worst)
 			return;
 		const double sigma = c.solution.states[s].lens_tilt.sigma;
 		if (worst->tilt_change > std::max(4 * sigma, 0.05))
-			Say(worst->tilt_change > 0.3 ? Grade::POOR : Grade::FAIR, fmt::format("state {}: without {} the tilt changes by {:.2f} degrees: look at that photograph, and take more", NameOf(s),
+			Say(worst->tilt_change > 0.3 ? Grade::POOR : Grade::FAIR, fmt::format("state {}: without {} the tilt changes by {:.2f} degrees: look at that photograph, and take more", StateName(s),
 				c.task.states[s].photos[worst->photo].file, worst->tilt_change));
 	}
 
-	void Tellers(size_t s)
+	void BlurAgainstGeometry(size_t s)
 	{
 		if (s == 0 || c.geometry_alone.states.size() <= s || c.blur_alone.size() <= s)
 			return;
@@ -115,7 +115,7 @@ private:
 		const double sigma = std::hypot(blur.lens_tilt.sigma, geometry.lens_tilt.sigma);
 		if (apart > 3 * sigma && apart > 0.05)
 			Say(apart > 0.5 && apart > 5 * sigma ? Grade::POOR : Grade::FAIR, fmt::format("state {}: blur and geometry, each alone, disagree by {:.2f} degrees ({:.0f} sigma); blur decides. "
-				"Was the board moved between the states, or the camera?", NameOf(s), apart, apart / sigma));
+				"Was the board moved between the states, or the camera?", StateName(s), apart, apart / sigma));
 	}
 
 	void Priors()
@@ -128,7 +128,7 @@ private:
 				: prior.quantity == Quantity::FOCUS_DISTANCE ? s.focus_distance.value : d;
 			const double pull = std::abs(found - prior.value) / std::max(prior.sigma, 1e-4 * prior.value);
 			if (pull > 3)
-				Say(pull > 6 ? Grade::POOR : Grade::FAIR, fmt::format("{} was given as {:.5g} +- {:.2g}, the photographs pull it to {:.5g}: are --square, --pitch and the value right?",
+				Say(pull > 6 ? Grade::POOR : Grade::FAIR, fmt::format("{} was given as {:.5g} +- {:.2g}, the photographs pull it to {:.5g}: are `square`, `pitch` and the value right?",
 					prior.Name(), prior.value, prior.sigma, found));
 		}
 	}
@@ -152,7 +152,7 @@ private:
 		const double typical = Median(std::move(noise));
 		if (c.solution.rms_blur > 3 * typical)
 			Say(Grade::GOOD, fmt::format("the blur fits to {:.2f} px, its noise is {:.2f} px: what limits the result are aberrations that the model {} does not have, and the sigmas hold them only "
-				"as far as they scatter", c.solution.rms_blur, typical, c.solution.model));
+				"as far as they scatter", c.solution.rms_blur, typical, NameOf(c.solution.model)));
 	}
 
 	const Calibration& c;
@@ -164,14 +164,9 @@ private:
 
 Verdict Judge(const Calibration& calibration)
 {
-	if (calibration.solution.model == "paper")
+	if (calibration.solution.model == Model::PAPER)
 		return {};
 	return Judgement(calibration).Everything();
-}
-
-const char* Name(Grade grade)
-{
-	return grade == Grade::GOOD ? "good" : grade == Grade::FAIR ? "fair" : "poor";
 }
 
 }

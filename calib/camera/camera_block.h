@@ -1,43 +1,72 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// The one writer of camera blocks.
 
 #ifndef TILTCAL_CAMERA_BLOCK_H
 #define TILTCAL_CAMERA_BLOCK_H
+
+#include <tiltcal/camera.h>
 
 #include <string>
 
 namespace tiltcal
 {
 
-/// The values of a `camera { tilt_lens { .. } .. }` block as POV-Ray shall read them: numbers
-/// or identifiers. Lengths in world units, angles in degrees.
-struct CameraBlock
+/// How the numbers of a block are written: as themselves, or by the names under which a file declares them.
+class BlockNumbers
 {
-	/// "focal_plane_tilt A", or "lens_tilt A", which states a focus at infinity too.
-	std::string tilt;
-	std::string tilt_direction, focal_distance, image_distance, shift_x, shift_y, aperture_diameter;
-	std::string effects;   ///< lines of the tilt_lens block, each indented by two tabs and ended
-	std::string place;     ///< lines: location, direction, right, up, .., each indented by one tab and ended
+public:
+	enum class Unit { NONE, LENGTH, PER_LENGTH };
+
+	virtual ~BlockNumbers() = default;
+	/// Such as ("Image_Distance", 48.3, LENGTH); lengths mm.
+	virtual std::string Text(const std::string& name, double value, Unit unit) const = 0;
 };
 
-/// The effects of a tilt_lens block: numbers or identifiers behind the word; empty: the word is absent.
-struct EffectWords
+/// Numbers themselves, in scene units of unit_mm millimetres.
+class PlainNumbers : public BlockNumbers
 {
-	std::string field_curvature;
-	std::string distortion;        ///< k1, k2, p1, p2, k3
-	std::string distortion_only_if;   ///< a condition, for `#if`; empty: always
-	bool natural_vignetting = false;
-	std::string optical_vignetting;   ///< R, Z of every rim
-	std::string optical_only_if;   ///< as distortion_only_if
-	std::string lateral, axial;    ///< red, blue
-	std::string blades;            ///< N rotation A curvature C
+public:
+	explicit PlainNumbers(double mm_per_unit) : unit_mm(mm_per_unit) {}
+	std::string Text(const std::string& name, double value, Unit unit) const override;
+
+private:
+	double unit_mm;
 };
 
-/// Lines for CameraBlock::effects.
-std::string EffectLines(const EffectWords& words);
+/// PREFIX_Image_Distance, ..
+class DeclaredNumbers : public BlockNumbers
+{
+public:
+	explicit DeclaredNumbers(const std::string& prefix) : prefix_(prefix) {}
+	std::string Text(const std::string& name, double value, Unit unit) const override;
 
-/// The one place that writes camera blocks. Sets blur_samples by TiltCal_Blur_Samples, which
-/// BlurSamplesDefault declares. Ends with a line end.
-std::string CameraBlockText(const CameraBlock& block);
+private:
+	std::string prefix_;
+};
+
+/// What a block says beyond the camera's numbers.
+struct BlockLayout
+{
+	enum class Tilt
+	{
+		OF_LENS,          ///< which states a focus at infinity too
+		OF_FOCAL_PLANE
+	} tilt = Tilt::OF_LENS;
+	/// Conditions for `#if` around the words; empty: always.
+	std::string distortion_only_if, rims_only_if;
+	std::string place;    ///< lines: location, direction, right, up, .., each indented by one tab and ended
+};
+
+/// A `camera { tilt_lens { .. } .. }` block. Sets blur_samples by TiltCal_Blur_Samples, which BlurSamplesDefault declares. Ends with a
+/// line end.
+std::string CameraBlockText(const StateCamera& camera, const BlockNumbers& numbers, const BlockLayout& layout);
+
+/// Only the lines of the effects, each indented by two tabs and ended.
+std::string EffectLines(const StateCamera& camera, const BlockNumbers& numbers, const BlockLayout& layout);
+
+/// Rim, Rim2: in the names of the rims' numbers.
+std::string RimName(size_t k);
 
 /// `#ifndef`, to be put before the first block of a file.
 std::string BlurSamplesDefault();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
+#include "lens/optics.h"
 #include "camera/opencv_yaml.h"
 
 #include <tiltcal/error.h>
@@ -174,7 +175,7 @@ void FromOpenCv(const OpenCvCamera& opencv, StateCamera& camera)
 
 void WriteOpenCv(const StateCamera& camera, const std::string& file)
 {
-	CheckSuffix("--opencv", file);
+	CheckSuffix("`opencv`", file);
 	const OpenCvCamera c = ToOpenCv(camera);
 	const cv::Matx33d K(c.fx, 0, c.centre[0], 0, c.fy, c.centre[1], 0, 0, 1);
 	cv::Mat coefficients = cv::Mat::zeros(camera.IsTilted() ? 14 : 5, 1, CV_64F);

@@ -2,6 +2,7 @@
 
 #include "camera/pose.h"
 
+#include "lens/angles.h"
 #include "model/projection.h"
 #include <tiltcal/error.h>
 #include "camera/pose_fit.h"
@@ -21,7 +22,7 @@ namespace tiltcal
 namespace
 {
 
-const double DEGREES = 180 / 3.14159265358979323846;
+const double DEGREES = tilt_lens::DEGREES_PER_RADIAN;
 
 /// Nobody measures points in a photograph better; two poses that differ by less cannot be told apart.
 /// Fewer than 6 points say nothing about their own noise: they may have been clicked by hand.
@@ -39,7 +40,7 @@ void RefuseNowhere(const std::vector<PosePoint>& points, const std::string& file
 {
 	for (const PosePoint& p : points)
 		if (p.placed == Placed::NOWHERE)
-			throw Refused(fmt::format("{}:{}: the point has no pixel; give --photo, so that it can be looked for there", file, p.line));
+			throw Refused(fmt::format("{}:{}: the point has no pixel; give `photo`, so that it can be looked for there", file, p.line));
 }
 
 void RefuseFew(const std::vector<PosePoint>& points, const std::string& file)
@@ -143,7 +144,7 @@ bool SeenAt(const StateCamera& camera, const CameraPose& pose, const Vec3<double
 	const Vec3<double> P{ p.x(), p.y(), p.z() }, n = camera.LensNormal();
 	if (!(P.z > 0) || !(Dot(P, n) > 0))
 		return false;
-	Project(camera.ImageDistancePx(), camera.distortion.data(), camera.principal_point.data(), n, P, pixel.data());
+	MakePicture(camera.ImageDistancePx(), camera.distortion.data(), camera.principal_point.data(), n).Project(P, pixel.data());
 	return true;
 }
 

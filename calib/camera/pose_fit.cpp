@@ -2,6 +2,7 @@
 
 #include "camera/pose_fit.h"
 
+#include "lens/angles.h"
 #include "model/projection.h"
 #include "base/robust.h"
 
@@ -48,7 +49,7 @@ struct PoseCost
 		for (size_t k = 0; k < 5; ++k)
 			distortion[k] = T(camera.distortion[k]);
 		T pixel[2];
-		Project(w, distortion, centre, normal, P, pixel);
+		MakePicture(w, distortion, centre, normal).Project(P, pixel);
 		residual[0] = pixel[0] - point.u;
 		residual[1] = pixel[1] - point.v;
 		return true;
@@ -262,7 +263,7 @@ bool PoseFit::Covariance(const PoseMinimum& m, double scale_px, Eigen::Matrix<do
 
 bool SamePose(const PoseMinimum& a, const PoseMinimum& b)
 {
-	return a.rotation.angularDistance(b.rotation) < 0.5 * 3.14159265358979323846 / 180 && (a.location - b.location).norm() < 0.01 * a.location.norm();
+	return a.rotation.angularDistance(b.rotation) < 0.5 * tilt_lens::PI / 180 && (a.location - b.location).norm() < 0.01 * a.location.norm();
 }
 
 }

@@ -29,7 +29,7 @@ cv::Mat Encoded(const cv::Mat& photo)
 void NeedSize(const StateCamera& camera, const cv::Mat& photo)
 {
 	if (photo.cols != camera.width || photo.rows != camera.height)
-		throw UsageError(fmt::format("--photo is {} x {} pixels, the calibrated picture {} x {}: give the photograph at its full size",
+		throw UsageError(fmt::format("`photo` is {} x {} pixels, the calibrated picture {} x {}: give the photograph at its full size",
 			photo.cols, photo.rows, camera.width, camera.height));
 }
 
@@ -109,7 +109,7 @@ PhotoPose SolvePoseInPhoto(const StateCamera& camera, const cv::Mat& photo, std:
 			solved.points.push_back(p);
 		}
 	solved.pose = SolvePose(camera, solved.points, file);
-	// Every round's camera foretells more of them; four clicks and a hundred crossings took three.
+	// Every round's camera predicts more of them; four clicks and a hundred crossings took three.
 	for (size_t before = 0; solved.points.size() > before && solved.points.size() < points.size();)
 	{
 		before = solved.points.size();

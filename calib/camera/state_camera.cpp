@@ -20,7 +20,6 @@ namespace
 
 using Json = nlohmann::ordered_json;
 
-const double DEGREES = 180 / 3.14159265358979323846;
 const double INFINITY_MM = std::numeric_limits<double>::infinity();
 const char* const DISTORTION_NAMES[] = { "k1", "k2", "p1", "p2", "k3" };
 
@@ -111,13 +110,13 @@ Node FindState(const Node& top, const std::string& name)
 	}
 	if (names.empty())
 		states.Fail("is empty");
-	throw UsageError(fmt::format("--state {}: {} has the states {}", name, top.file, names));
+	throw UsageError(fmt::format("`state` {}: {} has the states {}", name, top.file, names));
 }
 
-bool Used(const Node& effects, const std::string& name)
+bool Used(const Node& effects, EffectId effect)
 {
 	for (size_t i = 0; i < effects.json->size(); ++i)
-		if (effects.At(i)["name"].Text() == name)
+		if (effects.At(i)["name"].Text() == NameOf(effect))
 			return effects.At(i)["used"].Flag();
 	return false;
 }
@@ -146,14 +145,14 @@ void ReadEffects(const Node& top, StateCamera& c)
 		return;
 	const Node effects = top["effects"];
 	effects.NeedList(0);
-	c.natural_vignetting = Used(effects, "vignetting_natural");
-	if (Used(effects, "vignetting_optical"))
+	c.natural_vignetting = Used(effects, EffectId::VIGNETTING_NATURAL);
+	if (Used(effects, EffectId::VIGNETTING_OPTICAL))
 		c.rims_mm = ReadRims(top["vignetting"]["optical"]);
-	if (Used(effects, "chromatic_lateral"))
+	if (Used(effects, EffectId::CHROMATIC_LATERAL))
 		c.lateral = Pair(top["chromatic"], "lateral_red", "lateral_blue");
-	if (Used(effects, "chromatic_axial"))
+	if (Used(effects, EffectId::CHROMATIC_AXIAL))
 		c.axial_per_mm = Pair(top["chromatic"], "axial_red_per_mm", "axial_blue_per_mm");
-	if (!Used(effects, "blades"))
+	if (!Used(effects, EffectId::BLADES))
 		return;
 	const Node blades = top["blades"];
 	c.blades = { blades["count"].Count(), blades["rotation_deg"].Number(), blades["curvature"].Number() };
@@ -162,11 +161,6 @@ void ReadEffects(const Node& top, StateCamera& c)
 
 Json NumberOrNull(double x) { return std::isfinite(x) ? Json(x) : Json(); }
 
-}
-
-Vec3<double> StateCamera::LensNormal() const
-{
-	return tilt_lens::LensNormalFromTilt(lens_tilt_deg / DEGREES, tilt_direction_deg / DEGREES);
 }
 
 StateCamera ReadStateCamera(const std::string& file, const std::string& name)

@@ -7,7 +7,6 @@
 #include "camera/camera_block.h"
 #include "effects/effects.h"
 #include "base/files.h"
-#include "effects/fixed_blades.h"
 
 #include <fmt/format.h>
 
@@ -49,23 +48,18 @@ std::string PhotoPose(const std::string& prefix, size_t number, const Photo& pho
 }
 
 /// For the comment of a number.
-std::string Unused(const Calibration& c, const std::string& effect)
+std::string Unused(const Calibration& c, EffectId effect)
 {
-	const auto found = std::find_if(c.effects.begin(), c.effects.end(), [&](const Effect& e) { return e.name == effect; });
+	const auto found = std::find_if(c.effects.begin(), c.effects.end(), [&](const Effect& e) { return e.id == effect; });
 	return found == c.effects.end() || found->used ? "" : "; not used: " + found->why;
 }
 
 /// The circle through the corners of blades is wider than the disc that was fitted.
-std::string ApertureText(const Calibration& c, const Solution& solution, const std::string& prefix)
+std::string ApertureText(const StateCamera& camera, double fitted_mm, const std::string& prefix)
 {
-	const double widening = Uses(c, "blades") ? WideningForBlades(c.task.blades) : 1;
-	const Estimate& d = solution.aperture_diameter;
-	return Declare(prefix, "Aperture_Diameter", { d.value * widening, d.sigma * widening },
-		widening > 1 ? fmt::format("mm, of the circle through the blades' corners: blurs edges like a disc of {:.10g} mm", d.value) : "mm");
+	return Declare(prefix, "Aperture_Diameter", { camera.aperture_diameter_mm, camera.sigma.aperture_diameter_mm },
+		camera.blades.count ? fmt::format("mm, of the circle through the blades' corners: blurs edges like a disc of {:.10g} mm", fitted_mm) : "mm");
 }
-
-/// Rim, Rim2: in the names of the rims' numbers.
-std::string RimName(size_t k) { return k ? fmt::format("Rim{}", k + 1) : "Rim"; }
 
 /// Those of vignetting and chromatic aberration: all that was estimated.
 std::string EffectNumbers(const Calibration& c, const std::string& prefix)
@@ -74,7 +68,7 @@ std::string EffectNumbers(const Calibration& c, const std::string& prefix)
 	const FalloffAnswer& falloff = RimOf(c);
 	if (falloff.rim_seen)
 	{
-		const std::string unused = Unused(c, "vignetting_optical");
+		const std::string unused = Unused(c, EffectId::VIGNETTING_OPTICAL);
 		for (size_t k = 0; k < falloff.rims.size(); ++k)
 		{
 			const RimEstimate& rim = falloff.rims[k];
@@ -86,89 +80,65 @@ std::string EffectNumbers(const Calibration& c, const std::string& prefix)
 		return out;
 	const char* const colours[] = { "Red", "Blue" };
 	for (size_t k = 0; k < 2; ++k)
-		out += Declare(prefix, std::string("Lateral_") + colours[k], c.chromatic.lateral[k], "of chromatic aberration" + Unused(c, "chromatic_lateral"));
+		out += Declare(prefix, std::string("Lateral_") + colours[k], c.chromatic.lateral[k], "of chromatic aberration" + Unused(c, EffectId::CHROMATIC_LATERAL));
 	for (size_t k = 0; k < 2; ++k)
-		out += Declare(prefix, std::string("Axial_") + colours[k], c.chromatic.axial_per_mm[k], "1/mm, of chromatic aberration" + Unused(c, "chromatic_axial"));
+		out += Declare(prefix, std::string("Axial_") + colours[k], c.chromatic.axial_per_mm[k], "1/mm, of chromatic aberration" + Unused(c, EffectId::CHROMATIC_AXIAL));
 	return out;
 }
 
-/// The words of the effects used, by the names of their numbers.
-EffectWords WordsOf(const Calibration& c, const std::string& p)
-{
-	EffectWords words;
-	if (Uses(c, "field_curvature"))
-		words.field_curvature = p + "_Field_Curvature";
-	if (Uses(c, "distortion"))
-	{
-		words.distortion = fmt::format("{0}_K1, {0}_K2, {0}_P1, {0}_P2, {0}_K3", p);
-		words.distortion_only_if = "TiltCal_Distortion";
-	}
-	words.natural_vignetting = Uses(c, "vignetting_natural");
-	if (Uses(c, "vignetting_optical"))
-	{
-		for (size_t k = 0; k < RimOf(c).rims.size(); ++k)
-			words.optical_vignetting += fmt::format("{0}{1}_{2}_Radius, {1}_{2}_Distance", k ? ", " : "", p, RimName(k));
-		words.optical_only_if = "TiltCal_Rim";
-	}
-	if (Uses(c, "chromatic_lateral"))
-		words.lateral = fmt::format("{0}_Lateral_Red, {0}_Lateral_Blue", p);
-	if (Uses(c, "chromatic_axial"))
-		words.axial = fmt::format("{0}_Axial_Red, {0}_Axial_Blue", p);
-	if (Uses(c, "blades"))
-		words.blades = fmt::format("{} rotation {:.10g} curvature {:.10g}", c.task.blades.count, c.task.blades.rotation_deg, c.task.blades.curvature);
-	return words;
-}
-
 /// Every number of one camera.
-std::string Numbers(const Calibration& c, const Solution& solution, const Geometry& g, size_t s, const std::string& prefix)
+std::string Numbers(const Calibration& c, size_t s, Distorted distorted, const std::string& prefix)
 {
-	const StateLens& lens = solution.states[s];
-	const double pitch = c.task.pitch_mm;
-	const Point& cp = g.principal_point[s];
-	const Point& cs = g.principal_point_sigma[s];
+	const StateCamera camera = CameraOfState(c, s, distorted);
+	const StateCameraSigma& sigma = camera.sigma;
+	const bool bare = distorted == Distorted::NO;
+	const Geometry& g = bare ? c.RenderGeometry() : c.MainGeometry();
+	const double pitch = camera.pitch_mm;
 	std::string out;
-	out += Declare(prefix, "Image_Distance", solution.w_mm, "mm");
-	out += ApertureText(c, solution, prefix);
-	out += Declare(prefix, "Focus_Distance", lens.focus_distance, "mm, along the axis");
-	out += Declare(prefix, "Focal_Length", lens.focal_length, "mm");
-	out += Declare(prefix, "Focal_Plane_Tilt", lens.focal_plane_tilt, "degrees");
-	out += Declare(prefix, "Tilt_Direction", lens.tilt_direction, "degrees, 0 = recedes towards picture up, 90 = right");
-	out += Declare(prefix, "Lens_Tilt", lens.lens_tilt, "degrees");
-	const Point shift = ShiftOfPicture(c.task.width, c.task.height, cp);
-	out += Declare(prefix, "Shift_X", { shift[0] * pitch, cs[0] * pitch }, "mm");
-	out += Declare(prefix, "Shift_Y", { shift[1] * pitch, cs[1] * pitch }, "mm");
-	out += Declare(prefix, "Principal_Point_X", { cp[0], cs[0] }, "px");
-	out += Declare(prefix, "Principal_Point_Y", { cp[1], cs[1] }, "px");
-	if (solution.model == "curved")
-		out += Declare(prefix, "Field_Curvature", solution.field_curvature, "1/mm, of the bowl that the plane of focus touches on the lens axis" + Unused(c, "field_curvature"));
-	out += Declare(prefix, "Psf_Floor", solution.psf_floor_px, "px, the lens's own blur, not rendered");
+	const auto declare = [&](const std::string& name, double value, double its_sigma, const std::string& comment) { out += Declare(prefix, name, { value, its_sigma }, comment); };
+	declare("Image_Distance", camera.image_distance_mm, sigma.image_distance_mm, "mm");
+	out += ApertureText(camera, (bare ? c.render : c.solution).aperture_diameter.value, prefix);
+	declare("Focus_Distance", camera.focus_distance_mm, sigma.focus_distance_mm, "mm, along the axis");
+	declare("Focal_Length", camera.focal_length_mm, sigma.focal_length_mm, "mm");
+	declare("Focal_Plane_Tilt", camera.focal_plane_tilt_deg, sigma.focal_plane_tilt_deg, "degrees");
+	declare("Tilt_Direction", camera.tilt_direction_deg, sigma.tilt_direction_deg, "degrees, 0 = recedes towards picture up, 90 = right");
+	declare("Lens_Tilt", camera.lens_tilt_deg, sigma.lens_tilt_deg, "degrees");
+	const Point shift = ShiftOfPicture(camera.width, camera.height, camera.principal_point);
+	declare("Shift_X", shift[0] * pitch, sigma.principal_point[0] * pitch, "mm");
+	declare("Shift_Y", shift[1] * pitch, sigma.principal_point[1] * pitch, "mm");
+	declare("Principal_Point_X", camera.principal_point[0], sigma.principal_point[0], "px");
+	declare("Principal_Point_Y", camera.principal_point[1], sigma.principal_point[1], "px");
+	if (c.solution.model == Model::CURVED)
+		declare("Field_Curvature", camera.field_curvature_per_mm, sigma.field_curvature_per_mm,
+			"1/mm, of the bowl that the plane of focus touches on the lens axis" + Unused(c, EffectId::FIELD_CURVATURE));
+	declare("Psf_Floor", camera.psf_floor_px, sigma.psf_floor_px, "px, the lens's own blur, not rendered");
 	const char* const names[] = { "K1", "K2", "P1", "P2", "K3" };
 	for (size_t k = 0; k < 5 && g.distortion_terms > 0; ++k)
-		out += Declare(prefix, names[k], { g.distortion[k], g.distortion_sigma[k] }, k ? "" : "of the distortion" + Unused(c, "distortion"));
+		declare(names[k], camera.distortion[k], sigma.distortion[k], k ? "" : "of the distortion" + Unused(c, EffectId::DISTORTION));
 	out += EffectNumbers(c, prefix);
-	const bool moved = s < g.lens_centre.size();
 	out += fmt::format("#declare {}_Lens_Centre = {};   // +- {} mm, seen from the untilted one: right, up, forward\n", prefix,
-		Vector(moved ? g.lens_centre[s] : Vec3<double>{ 0, 0, 0 }), Vector(moved ? g.lens_centre_sigma[s] : Vec3<double>{ 0, 0, 0 }, 2));
-	out += fmt::format("#declare {}_Photos = {};\n", prefix, c.task.states[s].photos.size());
-	const size_t photos = c.task.states[s].photos.size();
-	for (size_t p = 0; p < photos; ++p)
-		out += PhotoPose(prefix, p + 1, c.task.states[s].photos[p], g.poses[s][p]);
+		Vector(camera.lens_centre_mm), Vector(sigma.lens_centre_mm, 2));
+	const std::vector<Photo>& photos = c.task.states[s].photos;
+	out += fmt::format("#declare {}_Photos = {};\n", prefix, photos.size());
+	for (size_t p = 0; p < photos.size(); ++p)
+		out += PhotoPose(prefix, p + 1, photos[p], g.states[s].poses[p]);
 	for (const char* const part : { "Location", "Look_At", "Sky" })
 	{
-		out += fmt::format("#declare {}_Photo_{} = array[{}] {{", prefix, part, photos);
-		for (size_t p = 0; p < photos; ++p)
+		out += fmt::format("#declare {}_Photo_{} = array[{}] {{", prefix, part, photos.size());
+		for (size_t p = 0; p < photos.size(); ++p)
 			out += fmt::format("{} {}_Photo_{}_{}", p ? "," : "", prefix, p + 1, part);
 		out += " };\n";
 	}
 	return out;
 }
 
-std::string Macro(const Calibration& c, const std::string& p)
+std::string Macro(const Calibration& c, size_t s, const std::string& p)
 {
-	CameraBlock block{ "focal_plane_tilt " + p + "_Focal_Plane_Tilt", p + "_Tilt_Direction", p + "_Focus_Distance", p + "_Image_Distance",
-		p + "_Shift_X", p + "_Shift_Y", p + "_Aperture_Diameter", "", "" };
-	block.effects = EffectLines(WordsOf(c, p));
-	block.place = fmt::format("\tlocation Location\n\tdirection {}_Image_Distance*z\n\tright {:.10g}*x\n\tup {:.10g}*y\n\tsky Sky\n\tlook_at Look_At\n",
+	BlockLayout layout;
+	layout.tilt = BlockLayout::Tilt::OF_FOCAL_PLANE;
+	layout.distortion_only_if = "TiltCal_Distortion";
+	layout.rims_only_if = "TiltCal_Rim";
+	layout.place = fmt::format("\tlocation Location\n\tdirection {}_Image_Distance*z\n\tright {:.10g}*x\n\tup {:.10g}*y\n\tsky Sky\n\tlook_at Look_At\n",
 		p, c.task.width * c.task.pitch_mm, c.task.height * c.task.pitch_mm);
 	return fmt::format(
 		"// Location is the lens centre. Look_At lies on the axis, that is, at the principal\n"
@@ -187,7 +157,7 @@ std::string Macro(const Calibration& c, const std::string& p)
 		"// The camera of this state's photograph N (1, 2, ...), in the board's frame.\n"
 		"#macro {0}_Pose(N)\n"
 		"\t{0}({0}_Photo_Location[N - 1], {0}_Photo_Look_At[N - 1], {0}_Photo_Sky[N - 1])\n"
-		"#end\n", p, CameraBlockText(block));
+		"#end\n", p, CameraBlockText(CameraOfState(c, s), DeclaredNumbers(p), layout));
 }
 
 }
@@ -196,16 +166,16 @@ std::string CameraInc(const Calibration& c, size_t s)
 {
 	const std::string& name = c.task.states[s].name;
 	const std::string p = "TiltCal_" + name;
-	const bool distorted = Uses(c, "distortion");
+	const bool distorted = Uses(c, EffectId::DISTORTION);
 	std::string out = fmt::format(
 		"// camera-{}.inc, written by tiltcal {} (model {}). World unit: 1 mm.\n"
 		"// Render at {} x {} pixels or any size of this aspect ratio.\n"
 		"// World of the photographs' poses: origin at the board's first inner corner (or circle's centre), x along\n"
 		"// the columns, y up the rows, z into the board.\n"
 		"// Reprojection: {:.3f} px RMS {}.\n\n{}",
-		name, TILTCAL_VERSION, c.solution.model, c.task.width, c.task.height, c.RenderGeometry().rms,
+		name, TILTCAL_VERSION, NameOf(c.solution.model), c.task.width, c.task.height, c.RenderGeometry().rms,
 		distorted ? fmt::format("without distortion, {:.3f} px with it", c.MainGeometry().rms) : "without distortion, which this lens does not need", BlurSamplesDefault());
-	if (Uses(c, "vignetting_optical"))
+	if (Uses(c, EffectId::VIGNETTING_OPTICAL))
 	{
 		out += RimOf(c).rims.size() > 1
 			? "// 1: with the rims beside the aperture, which darken corners as the photographs' are and cut blur discs\n"
@@ -219,11 +189,11 @@ std::string CameraInc(const Calibration& c, size_t s)
 		out += "// 1: with the lens's distortion, which acts about the tilted lens axis. 0: the best\n"
 			"// camera without it, fitted as such.\n"
 			"#ifndef (TiltCal_Distortion)\n\t#declare TiltCal_Distortion = 1;\n#end\n\n"
-			"#if (TiltCal_Distortion)\n\n" + Numbers(c, c.solution, c.MainGeometry(), s, p) + "\n#else\n\n";
-	out += Numbers(c, c.render, c.RenderGeometry(), s, p);
+			"#if (TiltCal_Distortion)\n\n" + Numbers(c, s, Distorted::YES, p) + "\n#else\n\n";
+	out += Numbers(c, s, Distorted::NO, p);
 	if (distorted)
 		out += "\n#end\n\n";
-	return out + Macro(c, p);
+	return out + Macro(c, s, p);
 }
 
 }

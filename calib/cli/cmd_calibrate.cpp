@@ -3,18 +3,27 @@
 #include "cli/commands.h"
 
 #include "model/priors.h"
+#include "base/spelling.h"
+#include "calibrate/measure_all.h"
+#include "model/names.h"
+#include "picture/image_io.h"
+
 #include <tiltcal/calibrate.h>
 #include <tiltcal/error.h>
 #include "calibrate/exif_check.h"
 #include "base/files.h"
+#include "effects/effects.h"
 #include "effects/fixed_blades.h"
 #include "report/write_report.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <opencv2/imgcodecs.hpp>
 #include <spdlog/spdlog.h>
 
 #include <cctype>
 #include <chrono>
+#include <ctime>
 #include <memory>
 #include <optional>
 #include <set>
@@ -31,8 +40,8 @@ struct Options
 	double square = 0, circle_diameter = 0;
 	std::optional<double> pitch;
 	std::vector<std::string> untilted, tilted, fix, prior, flat_field;
-	DetectOptions detect;
-	EdgeChoice edges;
+	bool any_orientation = false;
+	int edges_per_photo = 0;
 };
 
 /// Six edges of each direction reach all quarters of the board (test_spread_order.cpp).
@@ -101,10 +110,25 @@ std::vector<std::string> AllFiles(const std::vector<StateFiles>& states)
 	return files;
 }
 
-void CheckModel(const std::string& model)
+/// None: to be chosen.
+std::optional<Model> ParseModel(const std::string& text)
 {
-	if (model != "auto" && model != "curved" && model != "plane" && model != "rigid" && model != "paper")
-		throw UsageError(fmt::format("--model {}: there is auto, curved (exact, with field curvature), plane (exact), rigid (exact, ideal mount) and paper", model));
+	const std::optional<Model> model = ModelNamed(text);
+	std::string all;
+	for (const ModelWords& words : MODELS)
+		all += fmt::format("{}{} ({})", &words == &MODELS.back() ? " and " : ", ", words.name, words.meaning);
+	if (!model && text != "auto")
+		throw UsageError(fmt::format("--model {}: there is auto{}", text, all));
+	return model;
+}
+
+/// The help of --model, from the models' own words.
+std::string ModelHelp()
+{
+	std::string help = "auto: curved where photographs left out show field curvature, else plane";
+	for (const ModelWords& words : MODELS)
+		help += fmt::format("; {}: {}", words.name, words.meaning);
+	return help;
 }
 
 Poses ParsePoses(const std::string& text)
@@ -130,11 +154,11 @@ Refinement ParseRefinement(const std::string& text)
 }
 
 /// A wrong --fix makes the photographs contradict themselves, which reads like a lack of photographs.
-Calibration CalibrateWithPriors(const Task& task, bool priors_from_exif_alone, const std::string& model, Poses poses, Refinement refinement, const EffectChoice& effects)
+Calibration CalibrateWithPriors(const Task& task, bool priors_from_exif_alone, const CalibrateOptions& options)
 {
 	try
 	{
-		return Calibrate(task, model, poses, refinement, effects);
+		return Calibrate(task, options);
 	}
 	catch (const Error& e)
 	{
@@ -145,46 +169,108 @@ Calibration CalibrateWithPriors(const Task& task, bool priors_from_exif_alone, c
 	}
 }
 
-void Run(const Options& o)
+/// The photographs as they were measured, for the overlays: 8 bit, packed as PNG, in the order of states and photographs.
+class MeasuredPictures
+{
+public:
+	void Add(const cv::Mat& grey)
+	{
+		packed.emplace_back();
+		cv::imencode(".png", ToDisplay(grey), packed.back(), { cv::IMWRITE_PNG_COMPRESSION, 1 });
+	}
+
+	cv::Mat Get(const Task& task, size_t state, size_t photo) const
+	{
+		size_t n = photo;
+		for (size_t s = 0; s < state; ++s)
+			n += task.states[s].photos.size();
+		return cv::imdecode(packed[n], cv::IMREAD_GRAYSCALE);
+	}
+
+private:
+	std::vector<std::vector<uchar>> packed;
+};
+
+/// What is known beforehand, by --fix, --prior and EXIF.
+struct Known
+{
+	std::vector<Prior> priors;
+	FixedBlades blades;
+};
+
+Known WhatIsKnown(const Options& o)
+{
+	Known known;
+	for (const std::string& text : o.fix)
+		if (!TakeBlades(text, known.blades))
+			known.priors.push_back(ParseFix(text));
+	CheckBlades(known.blades);
+	for (const std::string& text : o.prior)
+		known.priors.push_back(ParsePrior(text));
+	return known;
+}
+
+/// What the texts of a calibration call inputs, people know as options.
+void SpellAsOptions(Calibration& c)
+{
+	const auto spell = [](std::string& text) { text = SpelledAsOptions(text); };
+	for (Solution* s : { &c.solution, &c.render, &c.paper })
+		spell(s->failure);
+	if (c.compared)
+		for (Solution* s : { &c.compared->rigid, &c.compared->plane, &c.compared->curved })
+			spell(s->failure);
+	spell(c.vignetting.failure);
+	for (FalloffAnswer& answer : c.vignetting.answers)
+		spell(answer.second.why);
+	spell(c.chromatic.failure);
+	for (Effect& e : c.effects)
+		for (std::string* text : { &e.failure, &e.why, &e.note })
+			spell(*text);
+	for (Remark& remark : c.verdict.remarks)
+		spell(remark.text);
+}
+
+void Run(const Options& o, const std::string& command_line)
 {
 	const auto start = std::chrono::steady_clock::now();
 	const Board board = MakeBoard(ParseTargetKind(o.target, "--target"), o.board, o.square, o.circle_diameter, "--target");
-	const Transfer transfer = ParseTransfer(o.transfer);
-	CheckModel(o.model);
-	const Poses poses = ParsePoses(o.poses);
-	const Refinement refinement = ParseRefinement(o.refine);
-	const EffectChoice effects = ParseEffects(o.effects);
+	MeasureOptions measure;
+	measure.transfer = ParseTransfer(o.transfer);
+	measure.any_orientation = o.any_orientation;
+	measure.edges_per_photo = o.edges_per_photo;
+	CalibrateOptions options;
+	options.model = ParseModel(o.model);
+	options.poses = ParsePoses(o.poses);
+	options.refinement = ParseRefinement(o.refine);
+	options.effects = ParseEffects(o.effects);
+	measure.log = options.log = ProgramLog();
 	if (o.pitch)
 		CheckPitch(*o.pitch);
-	if (o.edges.most != 0 && o.edges.most < FEWEST_EDGES)
-		throw UsageError(fmt::format("--edges-per-photo {}: give 0 for all edges, or at least {}", o.edges.most, FEWEST_EDGES));
+	if (o.edges_per_photo != 0 && o.edges_per_photo < FEWEST_EDGES)
+		throw UsageError(fmt::format("--edges-per-photo {}: give 0 for all edges, or at least {}", o.edges_per_photo, FEWEST_EDGES));
 	const std::vector<StateFiles> states = States(o);
-	std::vector<Prior> priors;
-	FixedBlades blades;
-	for (const std::string& text : o.fix)
-		if (!TakeBlades(text, blades))
-			priors.push_back(ParseFix(text));
-	CheckBlades(blades);
-	for (const std::string& text : o.prior)
-		priors.push_back(ParsePrior(text));
-	const double pitch = o.pitch ? *o.pitch : PitchFromExif(AllFiles(states));
+	const Known known = WhatIsKnown(o);
+	const double pitch = o.pitch ? *o.pitch : PitchFromExif(AllFiles(states), options.log);
 	const std::vector<FieldFile> fields = FlatFields(o, states);
 	PrepareFolder(o.out);
 
-	Task task = MeasureAll(states, board, pitch, transfer, o.detect, o.edges);
-	task.priors = priors;
-	task.blades = blades;
+	MeasuredPictures pictures;
+	Task task = MeasureAll(states, board, pitch, measure, [&](const cv::Mat& grey) { pictures.Add(grey); });
+	task.priors = known.priors;
+	task.blades = known.blades;
 	for (const FieldFile& field : fields)
-		AddFlatField(task, field.state, field.file, transfer);
-	for (const Prior& prior : PriorsFromExif(task, priors))
+		AddFlatField(task, field.state, field.file, measure);
+	for (const Prior& prior : PriorsFromExif(task, known.priors))
 	{
 		spdlog::info("EXIF says {} {:g}: taken as known to 10 %", prior.Name(), prior.value);
 		task.priors.push_back(prior);
 	}
-	const Calibration c = CalibrateWithPriors(task, priors.empty(), o.model, poses, refinement, effects);
+	Calibration c = CalibrateWithPriors(task, known.priors.empty(), options);
+	SpellAsOptions(c);
 	for (const std::string& words : CompareWithExif(c))
-		spdlog::warn("{}", words);
-	WriteEverything(c, transfer, o.out, o.refine);
+		options.log.Warn(words);
+	const RunNotes notes{ o.refine, command_line, fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr))) };
+	WriteEverything(c, notes, [&](size_t s, size_t p) { return pictures.Get(c.task, s, p); }, o.out);
 	fmt::print("{}", SummaryTable(c));
 	fmt::print("written to {}\n", o.out);
 	spdlog::info("done in {:.1f} s", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
@@ -192,7 +278,7 @@ void Run(const Options& o)
 
 }
 
-void AddCalibrate(CLI::App& app)
+void AddCalibrate(CLI::App& app, const std::string& command_line)
 {
 	auto o = std::make_shared<Options>();
 	CLI::App* c = app.add_subcommand("calibrate", "Photographs of a checkerboard or a grid of circles in, camera blocks for tilt_lens out.");
@@ -204,9 +290,7 @@ void AddCalibrate(CLI::App& app)
 	c->add_option("--pitch", o->pitch, "Distance of pixel centres on the sensor, mm; needed unless EXIF says it (FocalPlaneXResolution)");
 	c->add_option("--untilted", o->untilted, "Photographs with the lens untilted: names or quoted patterns")->required();
 	c->add_option("--tilted", o->tilted, "NAME='GLOB': photographs of one tilted state; may be repeated");
-	c->add_option("--model", o->model, "auto: curved where photographs left out show field curvature, else plane; curved: plane and a common field curvature; "
-		"plane: exact, free plane of focus per state; rigid: exact, the lens only turns and keeps f and w; "
-		"paper: Baba, Nakane, Hiura (3), (4), (1)")->capture_default_str();
+	c->add_option("--model", o->model, ModelHelp())->capture_default_str();
 	c->add_option("--transfer", o->transfer, "Transfer curve of 8 and 16 bit pictures: srgb, linear or a gamma; OpenEXR is linear")->capture_default_str();
 	c->add_option("--poses", o->poses, "shared: photograph n shows the board in one pose in every state; own: not; auto: see for itself")->capture_default_str();
 	c->add_option("--refine", o->refine, "Last step, all numbers together: edges: places and blur widths of the edges; photometric: the brightness across them; "
@@ -216,11 +300,11 @@ void AddCalibrate(CLI::App& app)
 	c->add_option("--prior", o->prior, "NAME=VALUE:SIGMA: what is known about; the same names; may be repeated");
 	c->add_option("--flat-field", o->flat_field, "NAME=FILE: photograph of an evenly lit plain surface in the state NAME (untilted included); may be repeated. "
 		"Vignetting is then told by these instead of the board's white squares");
-	c->add_option("--effects", o->effects, "What the camera blocks simulate: auto: what is significant and foretells photographs left out better; all: all that can be estimated; "
-		"none; or some of distortion, field_curvature, vignetting_natural, vignetting_optical, chromatic_lateral, chromatic_axial, blades, separated by commas: exactly these")->capture_default_str();
-	c->add_option("--edges-per-photo", o->edges.most, "Measure only N edges of every photograph, spread evenly over the board and both directions: "
+	c->add_option("--effects", o->effects, "What the camera blocks simulate: auto: what is significant and predicts photographs left out better; all: all that can be estimated; "
+		"none; or some of " + EffectNames() + ", separated by commas: exactly these")->capture_default_str();
+	c->add_option("--edges-per-photo", o->edges_per_photo, "Measure only N edges of every photograph, spread evenly over the board and both directions: "
 		"faster, less accurate. 0: all")->capture_default_str();
-	c->add_flag("--any-orientation", o->detect.any_orientation, "Accept a board that stands upside down (a mirrored picture looks the same)");
+	c->add_flag("--any-orientation", o->any_orientation, "Accept a board that stands upside down (a mirrored picture looks the same)");
 	c->add_option("--out", o->out, "Folder for calibration.json, camera-<state>.inc, overlays, report.txt and report.html (all on one page); created if missing")->required();
 	c->footer("Example:\n  tiltcal calibrate --board 12x9 --square 25 --pitch 0.02 --untilted 'target/untilted-*.png' \\\n"
 		"      --tilted plus5='target/plus5-*.png' --tilted minus5='target/minus5-*.png' --out calibration\n\n"
@@ -229,7 +313,7 @@ void AddCalibrate(CLI::App& app)
 		"Circles, dark on white or white on dark, must be larger than their blur: its radius may be 0.6 of theirs. Circles look the same turned\n"
 		"by 180 degrees, as many columns as rows by 90: the picture's top left circle is the first. Asymmetric grids need an odd number of rows.\n"
 		"Exit codes: 0 done, 1 refused or not converged, 2 wrong usage, 3 unreadable or unwritable file.");
-	c->callback([o] { Run(*o); });
+	c->callback([o, command_line] { Run(*o, command_line); });
 }
 
 }

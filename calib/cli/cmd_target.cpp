@@ -27,7 +27,7 @@ void Run(const Options& o)
 {
 	for (const std::string& file : o.out)
 		CheckTargetSuffix(file);
-	const Target target = MakeTarget(ParseTargetKind(o.kind, "--kind"), o.board, o.square, o.circle_diameter);
+	const Board target = MakeBoard(ParseTargetKind(o.kind, "--kind"), o.board, o.square, o.circle_diameter, "--kind");
 	const TargetPage page = LayOut(target, o.paper, o.margin);
 	for (const std::string& file : o.out)
 	{

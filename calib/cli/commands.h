@@ -6,18 +6,26 @@
 #ifndef TILTCAL_COMMANDS_H
 #define TILTCAL_COMMANDS_H
 
+#include <tiltcal/log.h>
+
 #include <CLI/CLI.hpp>
+
+#include <string>
 
 namespace tiltcal
 {
 
 void AddTarget(CLI::App& app);
 void AddDetect(CLI::App& app);
-void AddCalibrate(CLI::App& app);
+/// `command_line`: how the program was called, for the report.
+void AddCalibrate(CLI::App& app, const std::string& command_line);
 void AddPose(CLI::App& app);
 void AddProfile(CLI::App& app);
 void AddExport(CLI::App& app);
 void AddImport(CLI::App& app);
+
+/// Writes on the log of the program, inputs spelled as options.
+Log ProgramLog();
 
 }
 

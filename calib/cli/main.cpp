@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
 #include "cli/commands.h"
+#include "base/files.h"
+#include "base/spelling.h"
+
 #include <tiltcal/error.h>
 
 #include <fmt/format.h>
@@ -17,10 +20,38 @@ namespace
 
 int Fail(tiltcal::ExitCode code, const std::string& message)
 {
-	fmt::print(stderr, "tiltcal: error: {}\n", message);
+	fmt::print(stderr, "tiltcal: error: {}\n", tiltcal::SpelledAsOptions(message));
 	return code;
 }
 
+std::string Quoted(const std::string& word)
+{
+	const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
+	if (!word.empty() && word.find_first_not_of(plain) == std::string::npos)
+		return word;
+	std::string out = "'";
+	for (const char c : word)
+		out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+	return out + "'";
+}
+
+/// For a shell; the program without its folder.
+std::string CommandLine(int argc, char** argv)
+{
+	std::string out = argc > 0 ? Quoted(tiltcal::BaseName(argv[0])) : "";
+	for (int k = 1; k < argc; ++k)
+		out += " " + Quoted(argv[k]);
+	return out;
+}
+
+}
+
+tiltcal::Log tiltcal::ProgramLog()
+{
+	return Log([](Severity severity, const std::string& message)
+	{
+		spdlog::log(severity == Severity::WARNING ? spdlog::level::warn : spdlog::level::info, "{}", SpelledAsOptions(message));
+	});
 }
 
 int main(int argc, char** argv)
@@ -39,7 +70,7 @@ int main(int argc, char** argv)
 		"'tiltcal SUBCOMMAND --help' shows options, units, defaults and an example.");
 	tiltcal::AddTarget(app);
 	tiltcal::AddDetect(app);
-	tiltcal::AddCalibrate(app);
+	tiltcal::AddCalibrate(app, CommandLine(argc, argv));
 	tiltcal::AddPose(app);
 	tiltcal::AddProfile(app);
 	tiltcal::AddExport(app);

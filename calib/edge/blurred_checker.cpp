@@ -2,6 +2,7 @@
 
 #include "edge/blurred_checker.h"
 
+#include "lens/angles.h"
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +12,7 @@ namespace tiltcal
 namespace
 {
 
-const double PI = 3.14159265358979323846;
+using tilt_lens::PI;
 
 /// Length of the part of the chord s.n1 = t1 of the unit disc in s.n2 > t2.
 double ChordLength(double t1, double t2, double cosine, double sine)

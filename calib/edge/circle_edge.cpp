@@ -2,6 +2,7 @@
 
 #include "edge/circle_edge.h"
 
+#include "lens/angles.h"
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +12,7 @@ namespace tiltcal
 namespace
 {
 
-const double PI = 3.14159265358979323846;
+using tilt_lens::PI;
 
 /// b - sin b cos b: a segment of the unit circle of half angle b. The difference loses its digits below 0.05.
 double Segment(double b)

@@ -2,6 +2,7 @@
 
 #include "edge/disc_edge.h"
 
+#include "lens/angles.h"
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +12,7 @@ namespace tiltcal
 namespace
 {
 
-const double PI = 3.14159265358979323846;
+using tilt_lens::PI;
 
 /// ESF, its first and second antiderivative (both 0 at -infinity) and their
 /// derivatives by R, at x.

@@ -184,7 +184,7 @@ EdgeFit FitEdge(const std::vector<EdgeSample>& samples, const EdgeProfile& profi
 	return fit;
 }
 
-EdgeShift FirstOrderShift(const std::vector<EdgeSample>& samples, const EdgeProfile& profile, const EdgeProfile& other, const EdgeFit& fit)
+EdgeChange FirstOrderChange(const std::vector<EdgeSample>& samples, const EdgeProfile& profile, const EdgeProfile& other, const EdgeFit& fit)
 {
 	Vector p, g;
 	p << fit.low, fit.high, fit.shade_x, fit.shade_s, fit.offset, fit.slope, fit.radius;

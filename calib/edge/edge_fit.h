@@ -57,13 +57,14 @@ private:
 /// `start_radius` in pixels. Not valid: fewer than 40 samples, no contrast, no convergence.
 EdgeFit FitEdge(const std::vector<EdgeSample>& samples, const EdgeProfile& profile, double start_radius);
 
-struct EdgeShift
+/// A change of a fit.
+struct EdgeChange
 {
 	double offset = 0, slope = 0, radius = 0;
 };
 
 /// How much `fit`, of samples that look like `profile`, changes to first order when they look like `other`.
-EdgeShift FirstOrderShift(const std::vector<EdgeSample>& samples, const EdgeProfile& profile, const EdgeProfile& other, const EdgeFit& fit);
+EdgeChange FirstOrderChange(const std::vector<EdgeSample>& samples, const EdgeProfile& profile, const EdgeProfile& other, const EdgeFit& fit);
 
 }
 

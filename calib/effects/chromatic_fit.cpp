@@ -2,6 +2,7 @@
 
 #include "effects/chromatic_fit.h"
 
+#include "model/predict.h"
 #include <tiltcal/calibrate.h>
 #include "model/footprint.h"
 #include "base/robust.h"
@@ -97,7 +98,7 @@ Answer Fit(const std::vector<Line>& lines, size_t photos)
 	if (left.size() > 1)
 		answer.estimate.sigma = std::max(answer.estimate.sigma, std::sqrt(variance * double(left.size() - 1) / double(left.size())));
 	else
-		answer.count = 0;   // nothing is left to foretell one from
+		answer.count = 0;   // nothing is left to predict one from
 	return answer;
 }
 
@@ -105,14 +106,14 @@ Answer Fit(const std::vector<Line>& lines, size_t photos)
 double LateralSlope(const Calibration& c, size_t s, const Edge& e)
 {
 	const Geometry& g = c.MainGeometry();
-	const Point& centre = g.principal_point[s];
+	const Point& centre = g.states[s].principal_point;
 	const Point normal = EdgeNormal(e);
 	const Vec3<double> v{ (e.x - centre[0]) / g.w_px, -(e.y - centre[1]) / g.w_px, 1 };
 	const double step = 1e-4;
 	// LateralDirection goes from the picture to the scene; the image that is `lateral` larger goes the other way.
 	const auto place = [&](double lateral)
 	{
-		const Vec3<double> moved = tilt_lens::LateralDirection(g.lens_normal[s], 1 / (1 + lateral) - 1, v);
+		const Vec3<double> moved = tilt_lens::LateralDirection(g.states[s].lens_normal, 1 / (1 + lateral) - 1, v);
 		return g.w_px * (normal[0] * moved.x - normal[1] * moved.y) / moved.z;
 	};
 	return (place(step) - place(-step)) / (2 * step);
@@ -122,7 +123,7 @@ double LateralSlope(const Calibration& c, size_t s, const Edge& e)
 double AxialSlope(const Calibration& c, size_t s, size_t p, const Edge& e)
 {
 	const Geometry& g = c.MainGeometry();
-	const Vec3<double> P = EdgeInCamera(c.task, g.poses[s][p], e), G = EdgeGradient(g, s, P, e), &n = g.lens_normal[s];
+	const Vec3<double> P = EdgeInCamera(c.task, g.states[s].poses[p], e), G = EdgeGradient(g, s, P, e), &n = g.states[s].lens_normal;
 	const double curvature[2] = { c.solution.field_curvature.value, 0.5 * (c.solution.tangential_curvature.value - c.solution.sagittal_curvature.value) };
 	const double floor = c.solution.psf_floor_px.value, step = 1e-7;
 	const auto width = [&](double axial)
@@ -155,7 +156,7 @@ std::string WhyNothing(const Calibration& c)
 Chromatic EstimateChromatic(const Calibration& c)
 {
 	Chromatic result;
-	if (c.solution.model == "paper")
+	if (c.solution.model == Model::PAPER)
 	{
 		result.failure = "the paper's model has no effects";
 		return result;

@@ -2,6 +2,8 @@
 
 #include "effects/edge_shift.h"
 
+#include "lens/optics.h"
+#include "model/predict.h"
 #include <tiltcal/calibrate.h>
 #include "model/footprint.h"
 #include "solve/solve_geometry.h"
@@ -15,9 +17,9 @@ namespace
 EdgeShift ShiftOf(const Calibration& c, size_t s, size_t p, const Edge& e)
 {
 	const Geometry& g = c.MainGeometry();
-	const Vec3<double>& n = g.lens_normal[s];
+	const Vec3<double>& n = g.states[s].lens_normal;
 	const tilt_lens::LensBasis<double> basis = tilt_lens::BasisOfLensPlane(n);
-	const Vec3<double> P = EdgeInCamera(c.task, g.poses[s][p], e);
+	const Vec3<double> P = EdgeInCamera(c.task, g.states[s].poses[p], e);
 	const double curvature[2] = { c.solution.field_curvature.value, 0.5 * (c.solution.tangential_curvature.value - c.solution.sagittal_curvature.value) };
 	const Vec3<double> move = MoveByLensPoint(c.solution.states[s].q, n, curvature, P, EdgeGradient(g, s, P, e));
 	EdgeShift shift;
@@ -28,7 +30,7 @@ EdgeShift ShiftOf(const Calibration& c, size_t s, size_t p, const Edge& e)
 	shift.measured = normal[0] * (e.x - at[0]) + normal[1] * (e.y - at[1]);
 	shift.sigma = e.offset_sigma;
 	// A change of homography has eight numbers, of the radial distortion two.
-	const double x = (e.x - g.principal_point[s][0]) / g.w_px, y = (e.y - g.principal_point[s][1]) / g.w_px, r2 = x * x + y * y;
+	const double x = (e.x - g.states[s].principal_point[0]) / g.w_px, y = (e.y - g.states[s].principal_point[1]) / g.w_px, r2 = x * x + y * y;
 	const double nx = normal[0], ny = normal[1], along = x * nx + y * ny;
 	shift.nuisance << nx, ny, x * nx, x * ny, y * nx, y * ny, x * along, y * along, r2 * along, r2 * r2 * along;
 	return shift;
@@ -40,7 +42,7 @@ std::vector<EdgeShift> EdgeShifts(const Calibration& c)
 {
 	std::vector<EdgeShift> shifts;
 	size_t photo = 0;
-	for (size_t s = 0; s < c.task.states.size() && s < c.MainGeometry().poses.size(); ++s)
+	for (size_t s = 0; s < c.task.states.size() && s < c.MainGeometry().states.size(); ++s)
 		for (size_t p = 0; p < c.task.states[s].photos.size(); ++p, ++photo)
 			for (const Edge& e : c.task.states[s].photos[p].edges)
 			{

@@ -5,6 +5,7 @@
 #include <tiltcal/calibrate.h>
 #include <tiltcal/error.h>
 #include "effects/fixed_blades.h"
+#include "model/names.h"
 #include "solve/held_out_corners.h"
 #include "base/robust.h"
 
@@ -20,20 +21,10 @@ namespace tiltcal
 namespace
 {
 
-const char* const NAMES[] = { "distortion", "field_curvature", "vignetting_natural", "vignetting_optical", "chromatic_lateral", "chromatic_axial", "blades" };
-
 /// Below this an effect is not told from noise.
 const double SIGNIFICANT = 2;
 
 const double NOT_KNOWN = std::numeric_limits<double>::quiet_NaN();
-
-std::string NameList()
-{
-	std::string list;
-	for (const char* const name : NAMES)
-		list += fmt::format("{}{}", list.empty() ? "" : ", ", name);
-	return list;
-}
 
 double Sigmas(const Estimate& e) { return e.sigma > 0 ? std::abs(e.value) / e.sigma : 0; }
 
@@ -44,9 +35,9 @@ Effect DistortionOf(const Calibration& c, const EffectChoice& choice)
 	const Geometry& g = c.MainGeometry();
 	Effect e;
 	e.unit = "px, places of corners left out";
-	if (c.solution.model == "paper")
+	if (c.solution.model == Model::PAPER)
 		e.failure = "the paper's model has no effects";
-	else if (choice.Excludes("distortion"))
+	else if (choice.Excludes(EffectId::DISTORTION))
 		e.failure = "the lens was solved without it";
 	else if (g.distortion_terms == 0)
 		e.failure = "no coefficient is significant and lowers the reprojection error";
@@ -59,8 +50,8 @@ Effect DistortionOf(const Calibration& c, const EffectChoice& choice)
 			e.values.emplace_back(names[k], Estimate{ g.distortion[k], g.distortion_sigma[k] });
 			e.sigmas = std::max(e.sigmas, Sigmas(e.values.back().second));
 		}
-	e.held_out_without = CornersLeftOut(c.task, { 0, g.lens_normal, g.shared_poses });
-	e.held_out_with = CornersLeftOut(c.task, { g.distortion_terms, g.lens_normal, g.shared_poses });
+	e.held_out_without = CornersLeftOut(c.task, { 0, LensNormals(g), g.shared_poses });
+	e.held_out_with = CornersLeftOut(c.task, { g.distortion_terms, LensNormals(g), g.shared_poses });
 	return e;
 }
 
@@ -68,22 +59,20 @@ Effect CurvatureOf(const Calibration& c, const EffectChoice& choice)
 {
 	Effect e;
 	e.unit = "px, blur of photographs left out";
-	const auto find = [&](const char* model) { return std::find_if(c.compared.begin(), c.compared.end(), [&](const Solution& s) { return s.model == model; }); };
-	const auto plane = find("plane"), curved = find("curved");
-	e.held_out_without = plane == c.compared.end() ? 0 : plane->held_out_px;
-	e.held_out_with = curved == c.compared.end() ? c.solution.held_out_px : curved->held_out_px;
-	if (c.solution.model == "curved")
+	e.held_out_without = c.compared ? c.compared->plane.held_out_px : 0;
+	e.held_out_with = c.compared ? c.compared->curved.held_out_px : c.solution.held_out_px;
+	if (c.solution.model == Model::CURVED)
 		e.values.emplace_back("C per mm", c.solution.field_curvature);
-	else if (c.solution.model == "paper")
+	else if (c.solution.model == Model::PAPER)
 		e.failure = "the paper's model has no effects";
-	else if (choice.Excludes("field_curvature"))
+	else if (choice.Excludes(EffectId::FIELD_CURVATURE))
 		e.failure = "the lens was solved without it";
-	else if (curved == c.compared.end())
-		e.failure = fmt::format("--model {} has none", c.solution.model);
-	else if (!curved->failure.empty())
-		e.failure = curved->failure;
+	else if (!c.compared)
+		e.failure = fmt::format("`model` {} has none", NameOf(c.solution.model));
+	else if (!c.compared->curved.failure.empty())
+		e.failure = c.compared->curved.failure;
 	else
-		e.values.emplace_back("C per mm", curved->field_curvature);
+		e.values.emplace_back("C per mm", c.compared->curved.field_curvature);
 	if (!e.values.empty())
 		e.sigmas = Sigmas(e.values[0].second);
 	return e;
@@ -127,7 +116,7 @@ Effect VignettingOf(const Calibration& c, bool optical, bool beside)
 	return e;
 }
 
-/// One kind of chromatic aberration, of red and of blue, and how edges left out are foretold.
+/// One kind of chromatic aberration, of red and of blue, and how edges left out are predicted.
 Effect ChromaticOf(const Calibration& c, const char* letter, const char* per, const char* unit, const std::array<Estimate, 2>& values, double held_out_without, double held_out_with)
 {
 	Effect e;
@@ -145,7 +134,7 @@ Effect BladesOf(const Calibration& c)
 	Effect e;
 	e.sigmas = NOT_KNOWN;
 	if (c.task.blades.count == 0)
-		e.failure = "photographs of edges do not tell them: give --fix blades=N";
+		e.failure = "photographs of edges do not tell them: give `fix` blades=N";
 	else
 		e.values = { { "blades", { double(c.task.blades.count), 0 } }, { "rotation deg", { c.task.blades.rotation_deg, 0 } }, { "curvature", { c.task.blades.curvature, 0 } } };
 	return e;
@@ -156,14 +145,14 @@ std::string Against(const Effect& e)
 {
 	if (!e.failure.empty())
 		return e.failure;
-	if (e.name == "blades")
+	if (e.id == EffectId::BLADES)
 		return "";
 	if (e.sigmas < SIGNIFICANT)
 		return fmt::format("{:.1f} sigma: not significant", e.sigmas);
 	if (!(e.held_out_with > 0) || !(e.held_out_without > 0))
-		return e.name == "field_curvature" ? "" : "nothing can be left out to be foretold: photograph more";
+		return e.id == EffectId::FIELD_CURVATURE ? "" : "nothing can be left out to be predicted: photograph more";
 	if (!(e.held_out_with < e.held_out_without))
-		return "what was left out is not foretold better with it";
+		return "what was left out is not predicted better with it";
 	return "";
 }
 
@@ -174,43 +163,43 @@ void Decide(const EffectChoice& choice, Effect& e)
 	if (choice.kind == EffectChoice::AUTO)
 	{
 		e.used = against.empty();
-		e.why = !against.empty() ? against : e.name == "blades" ? "given by --fix" : "significant, and foretells better";
+		e.why = !against.empty() ? against : e.id == EffectId::BLADES ? "given by `fix`" : "significant, and predicts better";
 		return;
 	}
-	e.used = choice.Wants(e.name) && e.failure.empty();
-	e.why = choice.Excludes(e.name) ? "not in --effects" : !e.failure.empty() ? e.failure : against.empty() ? "asked for by --effects" : "asked for by --effects, although: " + against;
-	if (choice.kind == EffectChoice::LIST && choice.Wants(e.name) && !e.failure.empty())
-		throw Refused(fmt::format("--effects: {} could not be estimated: {}", e.name, e.failure));
+	e.used = choice.Wants(e.id) && e.failure.empty();
+	e.why = choice.Excludes(e.id) ? "not in `effects`" : !e.failure.empty() ? e.failure : against.empty() ? "asked for by `effects`" : "asked for by `effects`, although: " + against;
+	if (choice.kind == EffectChoice::LIST && choice.Wants(e.id) && !e.failure.empty())
+		throw Refused(fmt::format("`effects`: {} could not be estimated: {}", NameOf(e.id), e.failure));
 }
 
 /// The models have been compared already (CurvatureIsSeen, which wants 1 %), or one was asked for.
 void DecideCurvature(const EffectChoice& choice, const Calibration& c, Effect& e)
 {
 	Decide(choice, e);
-	e.used = c.solution.model == "curved";
-	if (choice.kind == EffectChoice::AUTO && e.used && c.compared.empty())
-		e.why = "asked for by --model curved";
+	e.used = c.solution.model == Model::CURVED;
+	if (choice.kind == EffectChoice::AUTO && e.used && !c.compared)
+		e.why = "asked for by `model` curved";
 	else if (choice.kind == EffectChoice::AUTO && !e.used && Against(e).empty())
-		e.why = "foretells hardly better";
+		e.why = "predicts hardly better";
 }
 
-Effect Named(Effect e, const char* name)
+Effect Named(Effect e, EffectId id)
 {
-	e.name = name;
+	e.id = id;
 	return e;
 }
 
 /// Both kinds of vignetting, each judged beside the other where that is used.
 void DecideVignetting(const EffectChoice& choice, Calibration& c)
 {
-	Effect natural = Named(VignettingOf(c, false, true), NAMES[2]), optical = Named(VignettingOf(c, true, true), NAMES[3]);
+	Effect natural = Named(VignettingOf(c, false, true), EffectId::VIGNETTING_NATURAL), optical = Named(VignettingOf(c, true, true), EffectId::VIGNETTING_OPTICAL);
 	Decide(choice, optical);
 	if (!optical.used)
-		natural = Named(VignettingOf(c, false, false), NAMES[2]);
+		natural = Named(VignettingOf(c, false, false), EffectId::VIGNETTING_NATURAL);
 	Decide(choice, natural);
 	if (!natural.used)
 	{
-		optical = Named(VignettingOf(c, true, false), NAMES[3]);
+		optical = Named(VignettingOf(c, true, false), EffectId::VIGNETTING_OPTICAL);
 		Decide(choice, optical);
 	}
 	c.effects.push_back(natural);
@@ -242,9 +231,10 @@ EffectChoice ParseEffects(const std::string& text)
 	{
 		const size_t comma = std::min(text.find(',', at), text.size());
 		const std::string name = text.substr(at, comma - at);
-		if (std::find(std::begin(NAMES), std::end(NAMES), name) == std::end(NAMES))
-			throw UsageError(fmt::format("--effects {}: there is no '{}'; give auto, all, none, or some of {}, separated by commas", text, name, NameList()));
-		choice.names.insert(name);
+		const std::optional<EffectId> effect = EffectNamed(name);
+		if (!effect)
+			throw UsageError(fmt::format("`effects` {}: there is no '{}'; give auto, all, none, or some of {}, separated by commas", text, name, EffectNames()));
+		choice.listed.insert(*effect);
 		at = comma + 1;
 	}
 	return choice;
@@ -252,7 +242,7 @@ EffectChoice ParseEffects(const std::string& text)
 
 void ChooseEffects(const EffectChoice& choice, Calibration& c)
 {
-	c.effects = { Named(DistortionOf(c, choice), NAMES[0]), Named(CurvatureOf(c, choice), NAMES[1]) };
+	c.effects = { Named(DistortionOf(c, choice), EffectId::DISTORTION), Named(CurvatureOf(c, choice), EffectId::FIELD_CURVATURE) };
 	Decide(choice, c.effects[0]);
 	DecideCurvature(choice, c, c.effects[1]);
 	DecideVignetting(choice, c);
@@ -261,27 +251,27 @@ void ChooseEffects(const EffectChoice& choice, Calibration& c)
 		chromatic.lateral_held_out_without, chromatic.lateral_held_out_with);
 	const Effect axial = ChromaticOf(c, "A", " per mm", "px, difference in blur of edges of photographs left out", chromatic.axial_per_mm,
 		chromatic.axial_held_out_without, chromatic.axial_held_out_with);
-	for (Effect e : { Named(lateral, NAMES[4]), Named(axial, NAMES[5]), Named(BladesOf(c), NAMES[6]) })
+	for (Effect e : { Named(lateral, EffectId::CHROMATIC_LATERAL), Named(axial, EffectId::CHROMATIC_AXIAL), Named(BladesOf(c), EffectId::BLADES) })
 	{
 		Decide(choice, e);
 		c.effects.push_back(e);
 	}
 }
 
-bool Uses(const Calibration& c, const std::string& name)
+bool Uses(const Calibration& c, EffectId effect)
 {
-	return std::any_of(c.effects.begin(), c.effects.end(), [&](const Effect& e) { return e.name == name && e.used; });
+	return std::any_of(c.effects.begin(), c.effects.end(), [&](const Effect& e) { return e.id == effect && e.used; });
 }
 
 const FalloffAnswer& FalloffOf(const Calibration& c)
 {
-	const bool natural = Uses(c, NAMES[2]), optical = Uses(c, NAMES[3]);
+	const bool natural = Uses(c, EffectId::VIGNETTING_NATURAL), optical = Uses(c, EffectId::VIGNETTING_OPTICAL);
 	return c.vignetting.answers[natural || optical ? FalloffKind(natural, optical) : FalloffKind(true, true)];
 }
 
 const FalloffAnswer& RimOf(const Calibration& c)
 {
-	return Uses(c, NAMES[3]) ? FalloffOf(c) : c.vignetting.answers[FalloffKind(true, true)];
+	return Uses(c, EffectId::VIGNETTING_OPTICAL) ? FalloffOf(c) : c.vignetting.answers[FalloffKind(true, true)];
 }
 
 std::string EffectsText(const Calibration& c)
@@ -289,7 +279,7 @@ std::string EffectsText(const Calibration& c)
 	std::string out = "\neffects:\n";
 	for (const Effect& e : c.effects)
 	{
-		out += fmt::format("  {:<19} {:<11} {}\n", e.name, e.used ? "written" : "not written", e.why);
+		out += fmt::format("  {:<19} {:<11} {}\n", NameOf(e.id), e.used ? "written" : "not written", e.why);
 		if (e.failure.empty() && !e.values.empty())
 			out += fmt::format("  {:<19} {}{}\n", "", ValueText(e), std::isfinite(e.sigmas) && e.sigmas > 0 ? fmt::format(": {:.1f} sigma", e.sigmas) : "");
 		if (e.failure.empty() && e.held_out_with > 0)

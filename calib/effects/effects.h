@@ -5,30 +5,12 @@
 #ifndef TILTCAL_EFFECTS_H
 #define TILTCAL_EFFECTS_H
 
-#include <tiltcal/calibration.h>
+#include <tiltcal/calibrate.h>
 
-#include <set>
 #include <string>
 
 namespace tiltcal
 {
-
-/// --effects.
-struct EffectChoice
-{
-	enum Kind
-	{
-		AUTO,    ///< significant at 2 sigma, and photographs left out are foretold better
-		ALL,     ///< all that can be estimated
-		LIST     ///< exactly `names`, which may be none
-	} kind = AUTO;
-	std::set<std::string> names;
-
-	/// Named, or one of all.
-	bool Wants(const std::string& name) const { return kind == ALL || (kind == LIST && names.count(name) > 0); }
-	/// Not to be written whatever the photographs say.
-	bool Excludes(const std::string& name) const { return kind == LIST && names.count(name) == 0; }
-};
 
 /// "auto", "all", "none" or names separated by commas. Throws UsageError, which lists the names.
 EffectChoice ParseEffects(const std::string& text);
@@ -38,7 +20,7 @@ EffectChoice ParseEffects(const std::string& text);
 void ChooseEffects(const EffectChoice& choice, Calibration& calibration);
 
 /// Whether it is written. False for the paper's model.
-bool Uses(const Calibration& calibration, const std::string& name);
+bool Uses(const Calibration& calibration, EffectId effect);
 
 /// The answer whose numbers are written, or, when none is, that of both kinds of vignetting.
 const FalloffAnswer& FalloffOf(const Calibration& calibration);

@@ -2,6 +2,7 @@
 
 #include "effects/falloff_fit.h"
 
+#include "lens/angles.h"
 #include "model/projection.h"
 #include "base/robust.h"
 
@@ -116,7 +117,7 @@ std::vector<FalloffUnknowns> Starts(const FalloffFit& fit, double focal_length, 
 
 double LogLight(const FalloffFit& fit, const FalloffSample& s, const std::vector<tilt_lens::Rim>& rims)
 {
-	const double share = OpeningOf(s, fit.lens_radius, fit.image_distance, rims).area / (3.14159265358979323846 * fit.lens_radius * fit.lens_radius);
+	const double share = OpeningOf(s, fit.lens_radius, fit.image_distance, rims).area / (tilt_lens::PI * fit.lens_radius * fit.lens_radius);
 	return (fit.natural ? s.log_natural : 0) + std::log(std::max(share, LEAST_SHARE));
 }
 
@@ -159,7 +160,7 @@ void FalloffFit::SolveLighting(FalloffUnknowns& x) const
 		x.gradient[size_t(k)] = { solved[gains + 2 * k], solved[gains + 2 * k + 1] };
 }
 
-double FalloffFit::Minimise(FalloffUnknowns& x) const
+std::optional<double> FalloffFit::Minimise(FalloffUnknowns& x) const
 {
 	ceres::Problem problem;
 	Build(*this, x, problem);
@@ -170,7 +171,7 @@ double FalloffFit::Minimise(FalloffUnknowns& x) const
 	options.logging_type = ceres::SILENT;
 	ceres::Solver::Summary summary;
 	ceres::Solve(options, &problem, &summary);
-	return summary.IsSolutionUsable() ? summary.final_cost : 1e300;
+	return summary.IsSolutionUsable() ? std::optional<double>(summary.final_cost) : std::nullopt;
 }
 
 bool FalloffFit::Search(double focal_length, FalloffUnknowns& x)
@@ -182,17 +183,17 @@ bool FalloffFit::Search(double focal_length, FalloffUnknowns& x)
 			starts = Starts(*this, focal_length, x);
 		else
 			SolveLighting(starts[0]);
-		double best = 1e300;
+		std::optional<double> best;
 		for (FalloffUnknowns& start : starts)
 		{
-			const double cost = Minimise(start);
-			if (cost < best)
+			const std::optional<double> cost = Minimise(start);
+			if (cost && (!best || *cost < *best))
 			{
 				best = cost;
 				x = start;
 			}
 		}
-		if (best >= 1e300)
+		if (!best)
 			return false;
 		std::vector<double> residuals;
 		for (const FalloffSample& s : samples)

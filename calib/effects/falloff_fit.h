@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 
+#include <optional>
 #include <vector>
 
 namespace tiltcal
@@ -56,8 +57,8 @@ struct FalloffFit
 	/// Gains and gradients for the rim that x has, by weighted least squares.
 	void SolveLighting(FalloffUnknowns& x) const;
 
-	/// Robust fit from x, in place. Returns the final cost, 1e300 without convergence.
-	double Minimise(FalloffUnknowns& x) const;
+	/// Robust fit from x, in place. Returns the final cost, none without convergence.
+	std::optional<double> Minimise(FalloffUnknowns& x) const;
 
 	/// Fit from several starts, twice: with model_sigma as it is, then with what is left over, which it becomes. The cost
 	/// has kinks where the rim begins to cut. False: no convergence.

@@ -2,6 +2,7 @@
 
 #include "effects/fixed_blades.h"
 
+#include "lens/angles.h"
 #include <tiltcal/error.h>
 #include "base/numbers.h"
 
@@ -29,7 +30,7 @@ double Number(const std::string& text, const std::string& option)
 bool TakeBlades(const std::string& text, FixedBlades& blades)
 {
 	const size_t equals = text.find('=');
-	const std::string name = text.substr(0, equals), option = "--fix " + text;
+	const std::string name = text.substr(0, equals), option = "`fix` " + text;
 	if (name != "blades" && name != "blade_rotation" && name != "blade_curvature")
 		return false;
 	if (equals == std::string::npos)
@@ -55,12 +56,12 @@ bool TakeBlades(const std::string& text, FixedBlades& blades)
 void CheckBlades(const FixedBlades& blades)
 {
 	if (blades.count == 0 && (blades.rotation_deg != 0 || blades.curvature != 0))
-		throw UsageError("--fix blade_rotation and blade_curvature say how blades stand: give their number too, such as --fix blades=8");
+		throw UsageError("`fix` blade_rotation and blade_curvature say how blades stand: give their number too, such as `fix` blades=8");
 }
 
 double MeanSquareRadius(const FixedBlades& fixed)
 {
-	const tilt_lens::Blades blades = tilt_lens::MakeBlades(fixed.count, fixed.rotation_deg * 3.14159265358979323846 / 180, fixed.curvature);
+	const tilt_lens::Blades blades = tilt_lens::MakeBlades(fixed.count, fixed.rotation_deg * tilt_lens::PI / 180, fixed.curvature);
 	// The map preserves area, so that the mean over the square is that over the opening. r^2 has kinks on the square's diagonals and at the blades' corners.
 	const int n = 512;
 	double sum = 0;

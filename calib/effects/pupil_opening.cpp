@@ -2,6 +2,7 @@
 
 #include "effects/pupil_opening.h"
 
+#include "lens/angles.h"
 #include "lens/distortion.h"
 #include "model/projection.h"
 
@@ -18,7 +19,7 @@ namespace tiltcal
 namespace
 {
 
-const double PI = 3.14159265358979323846;
+using tilt_lens::PI;
 
 /// A rim whose image on the lens would be larger than so many times itself is cut or open as a whole: sums keep their digits.
 const double LEAST_SCALE = 1e-3;
@@ -78,11 +79,11 @@ Opening CommonOpening(const std::vector<Disc>& discs)
 PixelView ViewOfPixel(const Calibration& c, size_t s, double u, double v)
 {
 	const Geometry& g = c.MainGeometry();
-	const Vec3<double>& n = g.lens_normal[s];
+	const Vec3<double>& n = g.states[s].lens_normal;
 	const tilt_lens::LensBasis<double> basis = tilt_lens::BasisOfLensPlane(n);
 	PixelView view;
 	view.n = n;
-	view.pixel = { (u - g.principal_point[s][0]) / g.w_px, -(v - g.principal_point[s][1]) / g.w_px, 1 };
+	view.pixel = { (u - g.states[s].principal_point[0]) / g.w_px, -(v - g.states[s].principal_point[1]) / g.w_px, 1 };
 	view.v = tilt_lens::UndistortDirection(g.distortion.data(), basis.a, basis.b, n, view.pixel);
 	view.kappa = tilt_lens::InverseFocusDistanceOnBowl(c.solution.states[s].q, c.solution.field_curvature.value, n, view.v);
 	return view;

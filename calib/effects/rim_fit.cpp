@@ -153,7 +153,7 @@ Eigen::VectorXd RimFit::Evaluate(const std::vector<Block>& blocks, const Rims& r
 	return all.unaryExpr(&Robust);
 }
 
-double RimFit::Solve(const std::vector<Block>& blocks, Rims& rims, int iterations) const
+std::optional<double> RimFit::Solve(const std::vector<Block>& blocks, Rims& rims, int iterations) const
 {
 	const auto evaluate = [&](const double* const* x, double* residuals)
 	{
@@ -192,10 +192,10 @@ double RimFit::Solve(const std::vector<Block>& blocks, Rims& rims, int iteration
 	ceres::Solver::Summary summary;
 	ceres::Solve(options, &problem, &summary);
 	FromNumbers(x.data(), rims);
-	return summary.IsSolutionUsable() ? summary.final_cost : 1e300;
+	return summary.IsSolutionUsable() ? std::optional<double>(summary.final_cost) : std::nullopt;
 }
 
-double RimFit::Minimise(Rims& rims, size_t left_out, int iterations) const { return Solve(Blocks(Part::WITHOUT, left_out), rims, iterations); }
+std::optional<double> RimFit::Minimise(Rims& rims, size_t left_out, int iterations) const { return Solve(Blocks(Part::WITHOUT, left_out), rims, iterations); }
 
 void RimFit::LearnSigmas(const Rims& rims)
 {
@@ -234,20 +234,20 @@ bool RimFit::Search(Rims& rims, int distance_sign, double focal_length)
 				}
 	const size_t count = std::min(STARTS, starts.size());
 	std::partial_sort(starts.begin(), starts.begin() + long(count), starts.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-	double best = 1e300;
+	std::optional<double> best;
 	for (size_t k = 0; k < count; ++k)
 	{
-		const double cost = Solve(blocks, starts[k].second, 15);
-		if (cost < best)
+		const std::optional<double> cost = Solve(blocks, starts[k].second, 15);
+		if (cost && (!best || *cost < *best))
 		{
 			best = cost;
 			rims = starts[k].second;
 		}
 	}
-	if (best >= 1e300)
+	if (!best)
 		return false;
 	LearnSigmas(rims);
-	return Minimise(rims) < 1e300;
+	return Minimise(rims).has_value();
 }
 
 double RimFit::ChiSquared(const Rims& rims) const { return Evaluate(Blocks(Part::WITHOUT, NONE), rims).squaredNorm(); }

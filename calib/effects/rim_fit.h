@@ -11,6 +11,7 @@
 #include "effects/falloff_fit.h"
 
 #include <limits>
+#include <optional>
 
 namespace tiltcal
 {
@@ -28,8 +29,8 @@ public:
 	RimFit(const FalloffFit& light, std::vector<size_t> light_group, std::vector<EdgeShift> edges, size_t first_edge_group);
 
 	/// Fits in place, each rim's sign of the distance kept, without one group. Returns the cost, half the sum of squares beyond
-	/// which residuals of 3 sigma count linearly; 1e300 without convergence.
-	double Minimise(Rims& rims, size_t left_out = NONE, int iterations = 30) const;
+	/// which residuals of 3 sigma count linearly; none without convergence.
+	std::optional<double> Minimise(Rims& rims, size_t left_out = NONE, int iterations = 30) const;
 
 	/// From several starts: `start` and, where `distance_sign` is not 0, one more rim on that side of the lens, from a grid. The
 	/// standard deviations of both kinds of residuals become what is left over. False: no convergence.
@@ -53,7 +54,7 @@ private:
 	struct Block;
 	std::vector<Block> Blocks(Part part, size_t group) const;
 	Eigen::VectorXd Evaluate(const std::vector<Block>& blocks, const Rims& rims) const;
-	double Solve(const std::vector<Block>& blocks, Rims& rims, int iterations) const;
+	std::optional<double> Solve(const std::vector<Block>& blocks, Rims& rims, int iterations) const;
 	void LearnSigmas(const Rims& rims);
 
 	FalloffFit light_;

@@ -30,7 +30,7 @@ struct Candidate
 Candidate Try(const RimFit& start, const Rims& one, int distance_sign, double focal_length)
 {
 	Candidate c{ start, one, one };
-	if (!c.fit.Search(c.rims, distance_sign, focal_length) || c.fit.Minimise(c.one) >= 1e300)
+	if (!c.fit.Search(c.rims, distance_sign, focal_length) || !c.fit.Minimise(c.one))
 		return c;
 	const double with = c.fit.ChiSquared(c.rims), without = c.fit.ChiSquared(c.one);
 	const double freedom = std::max<double>(1, double(c.fit.Residuals()) - 4);
@@ -46,7 +46,7 @@ void LeaveGroupsOut(const Candidate& c, TwoRims& result)
 	for (size_t group = 0; group < c.fit.Groups(); ++group)
 	{
 		Rims two = c.rims, one = c.one;
-		if (c.fit.Minimise(two, group, FEW_ITERATIONS) >= 1e300 || c.fit.Minimise(one, group, FEW_ITERATIONS) >= 1e300)
+		if (!c.fit.Minimise(two, group, FEW_ITERATIONS) || !c.fit.Minimise(one, group, FEW_ITERATIONS))
 			two.clear();
 		result.left_out.push_back(two);
 		size_t count = 0;
@@ -88,8 +88,8 @@ std::string Against(const SecondRim& v)
 	if (v.sigmas < SIGNIFICANT)
 		return fmt::format("{:.1f} sigma: not significant", std::max(0.0, v.sigmas));
 	if (!(v.held_out_with > 0))
-		return "nothing can be left out to be foretold";
-	return v.held_out_with < v.held_out_without ? "" : "what was left out is not foretold better with it";
+		return "nothing can be left out to be predicted";
+	return v.held_out_with < v.held_out_without ? "" : "what was left out is not predicted better with it";
 }
 
 }
@@ -123,7 +123,7 @@ TwoRims TrySecondRim(const RimFit& start, const tilt_lens::Rim& rim, double foca
 	}
 	const std::string against = Against(result.verdict);
 	result.verdict.used = against.empty();
-	result.verdict.why = against.empty() ? "significant, and foretells better" : against;
+	result.verdict.why = against.empty() ? "significant, and predicts better" : against;
 	return result;
 }
 

@@ -20,7 +20,7 @@ struct TwoRims
 };
 
 /// Tries, beside the rim `one` before the lens, another behind it and another before it, and takes the one that fits better. It
-/// is kept (verdict.used) where it is significant at 2 sigma and foretells groups left out better than one rim does, brightness and
+/// is kept (verdict.used) where it is significant at 2 sigma and predicts groups left out better than one rim does, brightness and
 /// places of edges together, each in its sigmas.
 TwoRims TrySecondRim(const RimFit& start, const tilt_lens::Rim& one, double focal_length);
 

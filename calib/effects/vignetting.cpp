@@ -2,6 +2,7 @@
 
 #include "effects/vignetting.h"
 
+#include "lens/angles.h"
 #include <tiltcal/calibrate.h>
 #include "effects/falloff_fit.h"
 #include "effects/second_rim.h"
@@ -19,12 +20,12 @@ namespace tiltcal
 namespace
 {
 
-const double DEGREES = 180 / 3.14159265358979323846;
+const double DEGREES = tilt_lens::DEGREES_PER_RADIAN;
 
 /// Fewer patches leave nothing over beside exposure and gradient.
 const size_t FEWEST_PATCHES = 6;
 
-/// A patch foretold wrongly counts as no more than this, in log_value: a shadow is nobody's fault.
+/// A patch counts as no more than this, in log_value: a shadow on one must not decide.
 const double MOST_HELD_OUT = 0.2;
 
 /// One exposure: where it comes from, for the answer.
@@ -174,7 +175,7 @@ LeaveOut LeaveGroupsOut(const Data& data, const FalloffFit& fit, const FalloffSa
 		for (size_t k = 0; k < fit.samples.size(); ++k)
 			(data.group[k] == group ? own : others).samples.push_back(fit.samples[k]);
 		FalloffUnknowns y = x;
-		if (own.samples.empty() || others.samples.empty() || (!known.empty() && known[group].empty()) || (fit.optical && others.Minimise(y) >= 1e300))
+		if (own.samples.empty() || others.samples.empty() || (!known.empty() && known[group].empty()) || (fit.optical && !others.Minimise(y)))
 			continue;
 		if (!known.empty())
 			own.rims = others.rims = known[group];
@@ -218,9 +219,13 @@ double SigmasOfRim(const FalloffFit& fit, FalloffUnknowns x)
 {
 	FalloffFit without = fit;
 	without.optical = false;
-	const double with_rim = fit.Minimise(x), no_rim = without.Minimise(x);
+	const std::optional<double> with_rim = fit.Minimise(x), no_rim = without.Minimise(x);
+	if (!with_rim)
+		return 0;
+	if (!no_rim)
+		return HUGE_VAL;
 	const double freedom = std::max<double>(1, double(fit.samples.size()) - double(x.gain.size()) - 2);
-	return SigmasOfTwo(std::max(0.0, (no_rim - with_rim) / (with_rim / freedom)));
+	return SigmasOfTwo(std::max(0.0, (*no_rim - *with_rim) / (*with_rim / freedom)));
 }
 
 /// One of the four fits, and its answer.
@@ -291,10 +296,10 @@ std::string WhyNothing(const Calibration& c)
 			white += photo.white.size();
 		}
 	if (size_t(clipped) > white)
-		return fmt::format("{} of {} white patches are clipped, which hides the fall-off: expose less, or give --flat-field", clipped, size_t(clipped) + white);
+		return fmt::format("{} of {} white patches are clipped, which hides the fall-off: expose less, or give `flat_field`", clipped, size_t(clipped) + white);
 	if (!c.task.board.IsCheckerboard())
-		return "it is told by white squares, which a grid of circles does not have: give --flat-field";
-	return "no photograph has enough white squares that blur leaves flat in their middle: give --flat-field, or use larger squares";
+		return "it is told by white squares, which a grid of circles does not have: give `flat_field`";
+	return "no photograph has enough white squares that blur leaves flat in their middle: give `flat_field`, or use larger squares";
 }
 
 }
@@ -303,7 +308,7 @@ Vignetting EstimateVignetting(const Calibration& c)
 {
 	Vignetting result;
 	result.flat_field = !c.task.flat_fields.empty();
-	if (c.solution.model == "paper")
+	if (c.solution.model == Model::PAPER)
 	{
 		result.failure = "the paper's model has no effects";
 		return result;
@@ -321,7 +326,7 @@ Vignetting EstimateVignetting(const Calibration& c)
 	data.fit.lens_radius = 0.5 * c.solution.aperture_diameter.value;
 	data.fit.image_distance = c.solution.w_mm.value > 0 ? c.solution.w_mm.value : c.MainGeometry().w_px * c.task.pitch_mm;
 	for (const bool optical : { false, true })
-		// With the natural fall-off first: where it foretells better, as it does, the rims beside it are those that count.
+		// With the natural fall-off first: where it predicts better, as it does, the rims beside it are those that count.
 		for (const bool natural : { true, false })
 		{
 			const Fitted fitted = Fit(data, natural, optical, c.solution.focal_length.value);

@@ -200,12 +200,12 @@ std::vector<BrightPatch> MeasureFlatField(const cv::Mat& linear, const std::stri
 				patches.push_back(pixels.Patch());
 		}
 	if (2 * clipped > columns * rows)
-		throw Refused(fmt::format("--flat-field {}: {} of {} cells are clipped, which hides the fall-off: expose less, so that the brightest part stays below full scale", file, clipped, columns * rows));
+		throw Refused(fmt::format("`flat_field` {}: {} of {} cells are clipped, which hides the fall-off: expose less, so that the brightest part stays below full scale", file, clipped, columns * rows));
 	double brightest = 0;
 	for (const BrightPatch& p : patches)
 		brightest = std::max(brightest, p.value);
 	if (brightest < 0.01)
-		throw Refused(fmt::format("--flat-field {}: the brightest cell is {:.4f} of full scale: too dark to measure; expose more", file, brightest));
+		throw Refused(fmt::format("`flat_field` {}: the brightest cell is {:.4f} of full scale: too dark to measure; expose more", file, brightest));
 	return patches;
 }
 

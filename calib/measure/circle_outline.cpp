@@ -2,10 +2,12 @@
 
 #include "measure/circle_outline.h"
 
+#include "lens/angles.h"
 #include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tiltcal
 {
@@ -13,7 +15,7 @@ namespace tiltcal
 namespace
 {
 
-const double PI = 3.14159265358979323846;
+using tilt_lens::PI;
 
 double Cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -119,7 +121,7 @@ Vec2 CircleOutline::Centroid() const
 
 double CircleOutline::SmallerRadius() const
 {
-	double least = 1e300;
+	double least = std::numeric_limits<double>::infinity();
 	for (int k = 0; k < 16; ++k)
 		least = std::min(least, 0.5 * (At(PI * k / 16) - At(PI * k / 16 + PI)).norm());
 	return least;

@@ -93,10 +93,10 @@ void RefuseWrongSize(const cv::Mat& grey, const cv::Matx33d& H, const Board& b, 
 	for (const auto& s : sides)
 	{
 		if (std::abs(s.ring) < 0.4 * inside)
-			throw Refused(fmt::format("{}: the outermost squares at the board's {} are missing: is --board {}x{} right (squares, not inner corners), and is the whole board in the picture?",
+			throw Refused(fmt::format("{}: the outermost squares at the board's {} are missing: is `board` {}x{} right (squares, not inner corners), and is the whole board in the picture?",
 				file, s.side, b.columns, b.rows));
 		if (std::abs(s.beyond) > 0.4 * inside)
-			throw Refused(fmt::format("{}: the board goes on beyond {}x{} squares at its {}: count the squares again for --board",
+			throw Refused(fmt::format("{}: the board goes on beyond {}x{} squares at its {}: count the squares again for `board`",
 				file, b.columns, b.rows, s.side));
 	}
 }
@@ -136,7 +136,7 @@ void Orient(Points& points, const cv::Mat& grey, const Board& b, const DetectOpt
 			Turn180(points);
 		if (UpsideDown(points, b) && !options.any_orientation)
 			throw Refused(fmt::format("{}: the picture is mirrored or the board is upside down (colours cannot tell which): un-mirror or turn the picture, "
-				"or pass --any-orientation if the board really was upside down", file));
+				"or pass `any_orientation` if the board really was upside down", file));
 		return;
 	}
 	if (UpsideDown(points, b))

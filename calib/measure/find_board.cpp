@@ -134,7 +134,7 @@ cv::Size LargestGrid(const cv::Mat& picture)
 {
 	const std::string what = fmt::format("{}: no board of {}x{} squares found: ", file, board.columns, board.rows);
 	if (seen.width > 0 && seen != cv::Size(board.InnerColumns(), board.InnerRows()))
-		throw Refused(what + fmt::format("it shows about {}x{} squares; is --board {}x{} right (squares, not inner corners), and is the whole board in the picture?",
+		throw Refused(what + fmt::format("it shows about {}x{} squares; is `board` {}x{} right (squares, not inner corners), and is the whole board in the picture?",
 			seen.width + 1, seen.height + 1, board.columns, board.rows));
 	throw Refused(what + "show the whole board with its white margin, inclined by no more than 60 degrees, and keep the radius of the blur below 0.4 of a square "
 		"(stop down, or move the board nearer to the plane of focus)");

@@ -2,6 +2,7 @@
 
 #include "measure/find_circles.h"
 
+#include "lens/angles.h"
 #include <tiltcal/photo.h>
 #include "measure/circle_outline.h"
 #include <tiltcal/error.h>
@@ -25,7 +26,7 @@ namespace
 
 using Points = std::vector<cv::Point2f>;
 
-const double PI = 3.14159265358979323846;
+using tilt_lens::PI;
 
 /// Dark blobs of an 8-bit picture.
 std::vector<cv::KeyPoint> Blobs(const cv::Mat& picture, const Board& board, float convexity)
@@ -174,7 +175,7 @@ void RefuseLarger(const cv::Mat& grey, const Board& board, const std::vector<Cor
 				beyond.push_back(c);
 		}
 		if (2 * beyond.size() >= size_t(count) && Median(beyond) > least)
-			throw Refused(fmt::format("{}: the grid goes on beyond {}x{} circles at its {}: count the circles again for --board", file, board.columns, board.rows, side));
+			throw Refused(fmt::format("{}: the grid goes on beyond {}x{} circles at its {}: count the circles again for `board`", file, board.columns, board.rows, side));
 	};
 	check("left", board.rows, [&](int j) { return Vec2(board.CircleColumn(-1, j), j); });
 	check("right", board.rows, [&](int j) { return Vec2(board.CircleColumn(board.columns, j), j); });
@@ -240,7 +241,7 @@ void Orient(Points& p, const Board& b, const DetectOptions& options, const std::
 	}
 	if (p[size_t(b.columns - 1)].x < p[0].x && !options.any_orientation)
 		throw Refused(fmt::format("{}: the picture is mirrored or the board is upside down (the circles cannot tell which): un-mirror or turn the picture, "
-			"or pass --any-orientation if the board really was upside down", file));
+			"or pass `any_orientation` if the board really was upside down", file));
 }
 
 /// Where the brightness along rays from the centres is half way between inside and outside: the circles' radius, median, in units
@@ -355,14 +356,14 @@ struct Search
 FoundCircles FindCircles(const cv::Mat& grey, const Board& board, const DetectOptions& options, const std::string& file)
 {
 	if (board.kind == TargetKind::ASYMMETRIC_CIRCLES && board.rows % 2 == 0)
-		throw UsageError(fmt::format("--board {}x{}: asymmetric grids with an even number of rows look the same turned by 180 degrees, and OpenCV does not find them reliably: "
+		throw UsageError(fmt::format("`board` {}x{}: asymmetric grids with an even number of rows look the same turned by 180 degrees, and OpenCV does not find them reliably: "
 			"use one with an odd number, such as 4x11", board.columns, board.rows));
 	FoundCircles found;
 	Search search{ grey, board };
 	Points points = search.Everywhere(found.bright);
 	const size_t wanted = size_t(board.columns * board.rows);
 	if (points.empty())
-		throw Refused(fmt::format("{}: no grid of {}x{} circles ({}) found; {} spots like circles of one size were seen, it has {}: are --board and --target right, is the whole grid in the picture "
+		throw Refused(fmt::format("{}: no grid of {}x{} circles ({}) found; {} spots like circles of one size were seen, it has {}: are `board` and `target` right, is the whole grid in the picture "
 			"with its margin, and inclined by no more than 60 degrees? Keep the blur's radius well below the circles'", file, board.columns, board.rows, NameOf(board.kind), search.most_blobs, wanted));
 	Orient(points, board, options, file);
 	found.centres = Numbered(points, board);

@@ -6,7 +6,7 @@
 #include <tiltcal/board.h>
 #include <tiltcal/photo.h>
 #include "measure/detect.h"
-#include "base/transfer.h"
+#include <tiltcal/transfer.h>
 
 #include <opencv2/core.hpp>
 

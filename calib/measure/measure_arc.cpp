@@ -2,6 +2,7 @@
 
 #include "measure/measure_arc.h"
 
+#include "lens/angles.h"
 #include <tiltcal/photo.h>
 #include "edge/circle_edge.h"
 #include "measure/measure_circles.h"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tiltcal
 {
@@ -17,7 +19,7 @@ namespace tiltcal
 namespace
 {
 
-const double PI = 3.14159265358979323846;
+using tilt_lens::PI;
 
 /// Angle in (-pi, pi].
 double Wrapped(double t) { return std::remainder(t, 2 * PI); }
@@ -38,7 +40,7 @@ struct CircleView::Arc
 {
 	double middle, half;                  // board angle
 	double t[NODES], s[NODES];            // s increasing
-	double least_radius = 1e300;          // of curvature, px
+	double least_radius = std::numeric_limits<double>::infinity();          // of curvature, px
 	double side;                          // +1 when s grows with t
 
 	Arc(const CircleOutline& outline, int arc, int arcs, bool bright) : middle(2 * PI * arc / arcs), half(PI / arcs), side(bright ? 1 : -1)
@@ -107,7 +109,7 @@ CircleView::CircleView(const cv::Mat& grey, const Board& board, const GridMap& m
 			// In the middle the outline's nearest point is not one, and far outside others are nearer.
 			if (m.squaredNorm() > far * far || m.norm() < (1 - INNER_SHARE) * radius)
 				continue;
-			double clearance = 1e300;
+			double clearance = std::numeric_limits<double>::infinity();
 			for (const Vec2& n : neighbours)
 			{
 				const Vec2 d = m - n;

@@ -208,7 +208,7 @@ const double DIAMETER_TOLERANCE = 0.12;
 void CheckDiameter(const Board& board, double radius, const std::string& file)
 {
 	if (std::abs(radius / board.CircleRadius() - 1) > DIAMETER_TOLERANCE)
-		throw Refused(fmt::format("{}: the circles' diameter is {:.3f} of their spacing, the board's {:.3f}: give --circle-diameter {:.3g} if --square {:g} is right",
+		throw Refused(fmt::format("{}: the circles' diameter is {:.3f} of their spacing, the board's {:.3f}: give `circle_diameter` {:.3g} if `square` {:g} is right",
 			file, 2 * radius, 2 * board.CircleRadius(), 2 * radius * board.square_mm, board.square_mm));
 }
 

@@ -288,7 +288,7 @@ void AddNeighboursUncertainty(const Lines& lines, const std::vector<EdgeSample>&
 					l.nx -= turn * l.ns;
 					l.ns += turn * nx;
 				}
-				const EdgeShift shift = FirstOrderShift(samples, profile, other.Profile(), fit);
+				const EdgeChange shift = FirstOrderChange(samples, profile, other.Profile(), fit);
 				M(0, kind) += std::pow(shift.offset / step, 2);
 				M(1, kind) += std::pow(shift.slope * half / step, 2);
 				on_radius[kind] += std::pow(shift.radius / step, 2);

@@ -18,8 +18,9 @@ Point EdgeNormal(const Edge& e)
 Vec3<double> EdgeGradient(const Geometry& g, size_t state, const Vec3<double>& P, const Edge& e)
 {
 	const Point normal = EdgeNormal(e);
-	const Vec3<double>& n = g.lens_normal[state];
-	return PixelGradient(g.w_px, g.distortion.data(), n, tilt_lens::BasisOfLensPlane(n), P, normal[0], normal[1]);
+	const Vec3<double>& n = g.states[state].lens_normal;
+	const PictureOf<double> picture{ g.w_px, g.distortion.data(), g.states[state].principal_point.data(), n, tilt_lens::BasisOfLensPlane(n) };
+	return picture.Gradient(P, normal[0], normal[1]);
 }
 
 }

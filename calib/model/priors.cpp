@@ -49,7 +49,7 @@ Prior Parse(const std::string& text, const char* option, bool with_sigma)
 		const std::string numbers = text.substr(equals + 1);
 		const size_t colon = numbers.find(':');
 		if ((colon != std::string::npos) != with_sigma)
-			throw UsageError(fmt::format(with_sigma ? "{}: give NAME=VALUE:SIGMA, such as f_number=2.8:0.1" : "{}: give NAME=VALUE, such as focal_length=45; --prior takes a sigma", where));
+			throw UsageError(fmt::format(with_sigma ? "{}: give NAME=VALUE:SIGMA, such as f_number=2.8:0.1" : "{}: give NAME=VALUE, such as focal_length=45; `prior` takes a sigma", where));
 		const double value = Positive(numbers.substr(0, colon), where);
 		return { known.quantity, value, with_sigma ? Positive(numbers.substr(colon + 1), where) : FIXED * value };
 	}
@@ -69,7 +69,7 @@ std::string Prior::Name() const
 	return "";
 }
 
-Prior ParseFix(const std::string& text) { return Parse(text, "--fix", false); }
-Prior ParsePrior(const std::string& text) { return Parse(text, "--prior", true); }
+Prior ParseFix(const std::string& text) { return Parse(text, "`fix`", false); }
+Prior ParsePrior(const std::string& text) { return Parse(text, "`prior`", true); }
 
 }

@@ -2,13 +2,13 @@
 //
 // From the board to the picture, templated for Ceres.
 //
-// Frames (both left-handed, as POV-Ray's): board of board.h; camera with its origin at
+// Frames (both left-handed, as POV-Ray's): board of frames.h; camera with its origin at
 // the lens centre, x right, y up, z forward. Pixels: (0, 0) top left, v downwards.
 // A change of handedness is the same flip of y on both sides, so that the rotation
 // between the frames is a proper one: R_here = F R_opencv F with F = diag(1, -1, 1).
 
-#ifndef TILTCAL_CAMERA_H
-#define TILTCAL_CAMERA_H
+#ifndef TILTCAL_PROJECTION_H
+#define TILTCAL_PROJECTION_H
 
 #include <ceres/rotation.h>
 #include "lens/distortion.h"
@@ -56,52 +56,59 @@ inline SeenThroughLens<T> SeeThroughLens(const T* distortion, const Vec3<T>& n, 
 	return { x, y, d[0] * basis.a - d[1] * basis.b + n };
 }
 
-/// Pixel (u, v) of P = (x, y, z), z > 0, seen through a lens with unit normal n. With n = e_z this is
-/// OpenCV's model with its centre at the principal point. (Measured in photos-45mm: 0.10 px instead of 0.36.)
-template<typename T>
-inline void Project(const T& w_px, const T* distortion, const T* principal_point, const Vec3<T>& n, const tilt_lens::LensBasis<T>& basis, const Vec3<T>& P, T* pixel)
-{
-	const Vec3<T> v = SeeThroughLens(distortion, n, basis, P).v;
-	pixel[0] = principal_point[0] + w_px * v.x / v.z;
-	pixel[1] = principal_point[1] - w_px * v.y / v.z;
-}
-
-/// Project for a lens whose exit pupil is m times as large as its entrance pupil (m 1: Project; pupil_magnification.h).
-/// The principal point is that of the exit pupil.
-template<typename T>
-inline void ProjectThroughPupils(const T& w_px, const T& pupil_magnification, const T* distortion, const T* principal_point,
-	const Vec3<T>& n, const tilt_lens::LensBasis<T>& basis, const Vec3<T>& P, T* pixel)
-{
-	const Vec3<T> v = tilt_lens::DirectionBehindPupils(n, pupil_magnification, SeeThroughLens(distortion, n, basis, P).v);
-	pixel[0] = principal_point[0] + pupil_magnification * w_px * v.x / v.z;
-	pixel[1] = principal_point[1] - pupil_magnification * w_px * v.y / v.z;
-}
-
 template<typename T>
 inline Vec3<T> Lifted(const Vec3<double>& v) { return { T(v.x), T(v.y), T(v.z) }; }
 
-/// The same for a lens normal that is given.
+/// How one state puts points in its picture: image distance in pixels, distortion, principal point (px) and the unit lens normal
+/// n with its axes.
 template<typename T>
-inline void Project(const T& w_px, const T* distortion, const T* principal_point, const Vec3<double>& n, const Vec3<T>& P, T* pixel)
+struct PictureOf
+{
+	T w_px;
+	const T *distortion, *principal_point;
+	Vec3<T> n;
+	tilt_lens::LensBasis<T> basis;
+
+	/// Pixel (u, v) of P = (x, y, z), z > 0, seen through the lens. With n = e_z this is OpenCV's model with its centre at the
+	/// principal point. (Measured in photos-45mm: 0.10 px instead of 0.36.)
+	void Project(const Vec3<T>& P, T* pixel) const
+	{
+		const Vec3<T> v = SeeThroughLens(distortion, n, basis, P).v;
+		pixel[0] = principal_point[0] + w_px * v.x / v.z;
+		pixel[1] = principal_point[1] - w_px * v.y / v.z;
+	}
+
+	/// Project for a lens whose exit pupil is m times as large as its entrance pupil (m 1: Project; lens/pupil_magnification.h).
+	/// The principal point is that of the exit pupil.
+	void ProjectThroughPupils(const T& m, const Vec3<T>& P, T* pixel) const
+	{
+		const Vec3<T> v = tilt_lens::DirectionBehindPupils(n, m, SeeThroughLens(distortion, n, basis, P).v);
+		pixel[0] = principal_point[0] + m * w_px * v.x / v.z;
+		pixel[1] = principal_point[1] - m * w_px * v.y / v.z;
+	}
+
+	/// Derivative by P of the pixel's place along the picture direction (nx, ny), y down: d(nx u + ny v)/dP, px/mm.
+	Vec3<T> Gradient(const Vec3<T>& P, const T& nx, const T& ny) const
+	{
+		const T depth = Dot(P, n);
+		const SeenThroughLens<T> seen = SeeThroughLens(distortion, n, basis, P);
+		// By the chain rule backwards: pixel by v, v by the distorted point, that by the ideal one, that by P.
+		const T a = nx * w_px / seen.v.z, b = -ny * w_px / seen.v.z;
+		const Vec3<T> by_v{ a, b, -(a * seen.v.x + b * seen.v.y) / seen.v.z };
+		const T by_X = Dot(by_v, basis.a), by_Y = -Dot(by_v, basis.b);
+		T J[4];
+		tilt_lens::DistortJacobian(distortion, seen.x, seen.y, J);
+		const T by_x = by_X * J[0] + by_Y * J[2], by_y = by_X * J[1] + by_Y * J[3];
+		return (T(1) / depth) * (by_x * basis.a - by_y * basis.b - (by_x * seen.x + by_y * seen.y) * n);
+	}
+};
+
+/// Of a lens normal that is given.
+template<typename T>
+inline PictureOf<T> MakePicture(const T& w_px, const T* distortion, const T* principal_point, const Vec3<double>& n)
 {
 	const tilt_lens::LensBasis<double> basis = tilt_lens::BasisOfLensPlane(n);
-	Project(w_px, distortion, principal_point, Lifted<T>(n), { Lifted<T>(basis.a), Lifted<T>(basis.b) }, P, pixel);
-}
-
-/// Derivative by P of the pixel's place along the picture direction (nx, ny), y down: d(nx u + ny v)/dP, px/mm.
-template<typename T>
-inline Vec3<T> PixelGradient(const T& w_px, const T* distortion, const Vec3<T>& n, const tilt_lens::LensBasis<T>& basis, const Vec3<T>& P, const T& nx, const T& ny)
-{
-	const T depth = Dot(P, n);
-	const SeenThroughLens<T> seen = SeeThroughLens(distortion, n, basis, P);
-	// By the chain rule backwards: pixel by v, v by the distorted point, that by the ideal one, that by P.
-	const T a = nx * w_px / seen.v.z, b = -ny * w_px / seen.v.z;
-	const Vec3<T> by_v{ a, b, -(a * seen.v.x + b * seen.v.y) / seen.v.z };
-	const T by_X = Dot(by_v, basis.a), by_Y = -Dot(by_v, basis.b);
-	T J[4];
-	tilt_lens::DistortJacobian(distortion, seen.x, seen.y, J);
-	const T by_x = by_X * J[0] + by_Y * J[2], by_y = by_X * J[1] + by_Y * J[3];
-	return (T(1) / depth) * (by_x * basis.a - by_y * basis.b - (by_x * seen.x + by_y * seen.y) * n);
+	return { w_px, distortion, principal_point, Lifted<T>(n), { Lifted<T>(basis.a), Lifted<T>(basis.b) } };
 }
 
 }

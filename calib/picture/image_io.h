@@ -6,7 +6,7 @@
 #define TILTCAL_IMAGE_IO_H
 
 #include <tiltcal/photo.h>
-#include "base/transfer.h"
+#include <tiltcal/transfer.h>
 
 #include <opencv2/core.hpp>
 

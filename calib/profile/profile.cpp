@@ -4,7 +4,7 @@
 
 #include <tiltcal/error.h>
 #include "picture/image_io.h"
-#include "base/transfer.h"
+#include <tiltcal/transfer.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

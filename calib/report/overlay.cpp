@@ -4,9 +4,8 @@
 
 #include <tiltcal/calibrate.h>
 #include "base/files.h"
-#include "model/footprint.h"
+#include "model/predict.h"
 #include "picture/image_io.h"
-#include "solve/solve_geometry.h"
 
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
@@ -43,7 +42,7 @@ cv::Scalar DifferenceColour(double difference)
 cv::Mat Canvas(const cv::Mat& grey)
 {
 	cv::Mat canvas;
-	cv::cvtColor(ToDisplay(grey), canvas, cv::COLOR_GRAY2BGR);
+	cv::cvtColor(grey.depth() == CV_8U ? grey : ToDisplay(grey), canvas, cv::COLOR_GRAY2BGR);
 	canvas.convertTo(canvas, CV_8UC3, 0.55, 40);
 	return canvas;
 }
@@ -95,8 +94,8 @@ cv::Mat Legend(const Calibration& c, size_t s, size_t p, int width)
 	for (const Edge& e : photo.edges)
 		sum += std::pow(e.blur - PredictedBlur(c, s, p, e), 2);
 	cv::putText(strip, fmt::format("{} | state {} | model {} | lens tilt {:.2f} deg, direction {:.1f} deg | corners {:.2f} px RMS, blur {:.2f} px RMS | {}",
-		BaseName(photo.file), c.task.states[s].name, c.solution.model, lens.lens_tilt.value, lens.tilt_direction.value,
-		c.MainGeometry().photo_rms[s][p], std::sqrt(sum / double(std::max<size_t>(photo.edges.size(), 1))), RatioText(photo)),
+		BaseName(photo.file), c.task.states[s].name, NameOf(c.solution.model), lens.lens_tilt.value, lens.tilt_direction.value,
+		c.MainGeometry().states[s].photo_rms[p], std::sqrt(sum / double(std::max<size_t>(photo.edges.size(), 1))), RatioText(photo)),
 		cv::Point(14, 26), cv::FONT_HERSHEY_SIMPLEX, 0.6, cv::Scalar(255, 255, 255), 1, cv::LINE_AA);
 	int x = 14;
 	x = Entry(strip, x, 48, CORNER, 1, false, c.task.board.IsCheckerboard() ? "detected corner" : "detected centre");
@@ -109,21 +108,6 @@ cv::Mat Legend(const Calibration& c, size_t s, size_t p, int width)
 	return strip;
 }
 
-}
-
-double PredictedBlur(const Calibration& c, size_t s, size_t p, const Edge& edge)
-{
-	const Geometry& g = c.MainGeometry();
-	const Solution& solution = c.solution;
-	const Vec3<double> P = EdgeInCamera(c.task, g.poses[s][p], edge);
-	const Vec3<double> q = solution.states[s].q;
-	const double d = solution.aperture_diameter.value, floor = solution.psf_floor_px.value;
-	// The paper's (4) takes the focal depth at the point's height, not along its ray.
-	if (solution.model == "paper")
-		return std::hypot(tilt_lens::SignedBlurWidth(g.w_px, d, { 0, 0, q.z / (1 - P.y * q.y) }, P), floor);
-	const double C = solution.field_curvature.value, curvature[2] = { C, solution.tangential_curvature.value - C };
-	const Vec3<double> n = tilt_lens::LensFromPlane(q, 1 / solution.w_mm.value).normal;
-	return std::sqrt(SquaredFootprintWidth(d, q, n, curvature, P, EdgeGradient(g, s, P, edge)) + floor * floor);
 }
 
 cv::Mat DrawMeasured(const cv::Mat& grey, const Photo& photo)

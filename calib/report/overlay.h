@@ -10,7 +10,7 @@
 namespace tiltcal
 {
 
-/// The photograph (linear, grey) with detected corners (crosses), reprojected corners
+/// The photograph (grey: linear, or ToDisplay of that) with detected corners (crosses), reprojected corners
 /// (with the error drawn ten times as long), and for every edge its measured blur disc
 /// (filled ring) and the predicted one (thin ring). Rings are coloured by the sign of the
 /// difference. 8-bit BGR at the photograph's size, a legend in a strip below.
@@ -19,9 +19,6 @@ cv::Mat DrawOverlay(const cv::Mat& grey, const Calibration& calibration, size_t 
 /// What was measured in a photograph: corners (crosses), edges (the portion fitted, and its direction) and their blur discs.
 /// 8-bit BGR at the photograph's size, in a strip below the blur in terms of squares.
 cv::Mat DrawMeasured(const cv::Mat& grey, const Photo& photo);
-
-/// Predicted blur width of an edge by the calibration's own model, floor included, px.
-double PredictedBlur(const Calibration& calibration, size_t state, size_t photo, const Edge& edge);
 
 }
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tiltcal
 {
@@ -15,7 +16,8 @@ namespace tiltcal
 PageView::PageView(const Vec3<double>& right_axis, const Vec3<double>& up_axis, const Polygon& points, const PageBox& box) :
 	right(right_axis), up(up_axis), towards_viewer(Cross(up_axis, right_axis))
 {
-	double left = 1e300, most_right = -1e300, low = 1e300, high = -1e300;
+	const double infinity = std::numeric_limits<double>::infinity();
+	double left = infinity, most_right = -infinity, low = infinity, high = -infinity;
 	for (const Vec3<double>& P : points)
 	{
 		left = std::min(left, Dot(P, right));
@@ -28,7 +30,7 @@ PageView::PageView(const Vec3<double>& right_axis, const Vec3<double>& up_axis, 
 	y0 = box.y + box.height / 2 + scale * (low + high) / 2;
 }
 
-PagePoint PageView::operator()(const Vec3<double>& P) const
+SketchPoint PageView::operator()(const Vec3<double>& P) const
 {
 	return { x0 + scale * Dot(P, right), y0 - scale * Dot(P, up) };
 }
@@ -47,7 +49,7 @@ std::string Path(const PageView& view, const Polygon& points, bool closed, const
 	std::string d;
 	for (const Vec3<double>& P : points)
 	{
-		const PagePoint at = view(P);
+		const SketchPoint at = view(P);
 		d += fmt::format("{}{:.2f} {:.2f}", d.empty() ? 'M' : 'L', at.x, at.y);
 	}
 	return fmt::format("<path d=\"{}{}\" {}/>\n", d, closed ? "Z" : "", style);
@@ -55,11 +57,11 @@ std::string Path(const PageView& view, const Polygon& points, bool closed, const
 
 std::string Line(const PageView& view, const Vec3<double>& a, const Vec3<double>& b, const std::string& style)
 {
-	const PagePoint from = view(a), to = view(b);
+	const SketchPoint from = view(a), to = view(b);
 	return fmt::format("<line x1=\"{:.2f}\" y1=\"{:.2f}\" x2=\"{:.2f}\" y2=\"{:.2f}\" {}/>\n", from.x, from.y, to.x, to.y, style);
 }
 
-std::string Text(const PagePoint& at, const std::string& text, const std::string& anchor, const std::string& style)
+std::string Text(const SketchPoint& at, const std::string& text, const std::string& anchor, const std::string& style)
 {
 	return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" {}>{}</text>\n", at.x, at.y, anchor, style, html::Escape(text));
 }

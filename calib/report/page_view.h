@@ -12,7 +12,7 @@
 namespace tiltcal
 {
 
-struct PagePoint
+struct SketchPoint
 {
 	double x = 0, y = 0;   ///< SVG user units, y down
 };
@@ -29,7 +29,7 @@ public:
 	/// The largest scale at which all of `points` lie in `box`, centred.
 	PageView(const Vec3<double>& right, const Vec3<double>& up, const Polygon& points, const PageBox& box);
 
-	PagePoint operator()(const Vec3<double>& P) const;
+	SketchPoint operator()(const Vec3<double>& P) const;
 	double Scale() const { return scale; }   ///< user units to a mm
 	/// How far towards the viewer P is, mm.
 	double Nearness(const Vec3<double>& P) const { return Dot(P, towards_viewer); }
@@ -53,7 +53,7 @@ namespace svg
 std::string Path(const PageView& view, const Polygon& points, bool closed, const std::string& style);
 std::string Line(const PageView& view, const Vec3<double>& a, const Vec3<double>& b, const std::string& style);
 /// With a white rim, so that it can be read on lines. `anchor`: start, middle or end. `text` is escaped here.
-std::string Text(const PagePoint& at, const std::string& text, const std::string& anchor = "start", const std::string& style = "");
+std::string Text(const SketchPoint& at, const std::string& text, const std::string& anchor = "start", const std::string& style = "");
 
 }
 

@@ -4,19 +4,16 @@
 
 #include <tiltcal/calibrate.h>
 #include "effects/effects.h"
+#include "model/names.h"
 #include "base/files.h"
 #include "report/html.h"
 #include "report/report_maps.h"
 #include "report/report_scene.h"
 #include "report/report_tables.h"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <ctime>
-#include <fstream>
 
 namespace tiltcal
 {
@@ -53,26 +50,6 @@ figure:has(input:checked) { grid-column: 1 / -1 } figure:has(input:checked) img 
 </style></head><body>
 )";
 
-std::string Quoted(const std::string& word)
-{
-	const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
-	if (!word.empty() && word.find_first_not_of(plain) == std::string::npos)
-		return word;
-	std::string out = "'";
-	for (const char c : word)
-		out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-	return out + "'";
-}
-
-std::string CommandLine()
-{
-	std::ifstream in("/proc/self/cmdline", std::ios::binary);
-	std::string word, out;
-	while (std::getline(in, word, '\0'))
-		out += (out.empty() ? "" : " ") + Quoted(out.empty() ? BaseName(word) : word);
-	return out;
-}
-
 /// Photographs by state: "untilted 6, plus5 6".
 std::string Counts(const Task& task)
 {
@@ -86,10 +63,11 @@ std::string Counts(const Task& task)
 	return fmt::format("{} ({})", all, each);
 }
 
-std::string ModelText(const std::string& model)
+std::string BoardText(const Board& board)
 {
-	return model + (model == "curved" ? ": exact, with field curvature" : model == "plane" ? ": exact, a free plane of focus in every state"
-		: model == "rigid" ? ": exact, the lens only turns" : model == "paper" ? ": Baba, Nakane, Hiura (3), (4), (1)" : "");
+	if (board.IsCheckerboard())
+		return fmt::format("{} × {} squares of {:g} mm", board.columns, board.rows, board.square_mm);
+	return fmt::format("{} × {} circles of {:g} mm, {}, {:g} mm apart", board.columns, board.rows, board.circle_diameter_mm, NameOf(board.kind), board.square_mm);
 }
 
 std::string Summary(const Calibration& c, const RunNotes& notes)
@@ -99,10 +77,9 @@ std::string Summary(const Calibration& c, const RunNotes& notes)
 	std::vector<std::vector<std::string>> rows{ { "run", "" } };
 	rows.push_back({ "photographs", Counts(task) });
 	rows.push_back({ "picture", fmt::format("{} × {} px, pitch {:g} mm: a sensor of {:.2f} × {:.2f} mm", task.width, task.height, task.pitch_mm, task.width * task.pitch_mm, task.height * task.pitch_mm) });
-	rows.push_back({ "board", fmt::format("{} × {} squares of {:g} mm; its poses are {} the states", task.board.columns, task.board.rows, task.board.square_mm,
-		c.MainGeometry().shared_poses ? "shared by" : "free in all") });
-	rows.push_back({ "model", Escape(ModelText(c.solution.model)) });
-	rows.push_back({ "refinement", c.solution.model == "paper" ? "none" : Escape(notes.refinement) });
+	rows.push_back({ "board", fmt::format("{}; its poses are {} the states", BoardText(task.board), c.MainGeometry().shared_poses ? "shared by" : "free in all") });
+	rows.push_back({ "model", Escape(std::string(NameOf(c.solution.model)) + ": " + MeaningOf(c.solution.model)) });
+	rows.push_back({ "refinement", c.solution.model == Model::PAPER ? "none" : Escape(notes.refinement) });
 	rows.push_back({ "program", "tiltcal " TILTCAL_VERSION ", " + Escape(notes.date) });
 	if (!notes.command_line.empty())
 		rows.push_back({ "command", "<code>" + Escape(notes.command_line) + "</code>" });
@@ -113,8 +90,8 @@ std::string Summary(const Calibration& c, const RunNotes& notes)
 std::string Tilt(const Calibration& c)
 {
 	std::string out = "<h2>Tilt, models, photographs</h2>\n";
-	const std::string tellers = TellersTable(c), models = ModelsTable(c);
-	out += c.task.states.size() < 2 ? "<p>No tilted state was photographed.</p>\n" : tellers;
+	const std::string evidence = EvidenceTable(c), models = ModelsTable(c);
+	out += c.task.states.size() < 2 ? "<p>No tilted state was photographed.</p>\n" : evidence;
 	if (!models.empty())
 		out += "<h3>Models</h3>\n<p>Each model was fitted without one photograph after the other and asked for that photograph's blur. The difference of an edge counts up to a bound, so that one bad edge does not decide.</p>\n" + models;
 	return out + "<h3>Photographs</h3>\n" + PhotographsTable(c) + "<p><small>Blur misfit counts every edge in full. The last two columns are of fits without the photograph; there the difference of an edge counts up to a bound only, so that the last column may be the smaller one.</small></p>\n";
@@ -209,11 +186,6 @@ std::string Fine(const Calibration& c)
 	return out;
 }
 
-}
-
-RunNotes NotesOfThisRun(const std::string& refinement)
-{
-	return { refinement, CommandLine(), fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr))) };
 }
 
 ReportPictures::ReportPictures(const Task& task) : height(task.height)

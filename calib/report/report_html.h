@@ -18,13 +18,10 @@ namespace tiltcal
 /// What the page says of the run itself.
 struct RunNotes
 {
-	std::string refinement;     ///< --refine
+	std::string refinement;     ///< its name
 	std::string command_line;   ///< empty: not shown
 	std::string date;
 };
-
-/// This process's command line, quoted for a shell (from /proc; empty where there is none), and the time now, UTC.
-RunNotes NotesOfThisRun(const std::string& refinement);
 
 /// The overlays of a page, kept small as they come. Not safe for threads.
 class ReportPictures

@@ -2,6 +2,7 @@
 
 #include "report/report_maps.h"
 
+#include "model/predict.h"
 #include <tiltcal/calibrate.h>
 #include "effects/effects.h"
 #include "model/footprint.h"
@@ -217,7 +218,7 @@ std::string CornerMap(const Calibration& c, size_t s)
 		if (!path.empty())
 			out += fmt::format("<path d=\"{}\" stroke=\"{}\" stroke-width=\"1.1\" fill=\"none\"/>\n", path, html::PhotoColour(p));
 	}
-	out += frame.PrincipalPoint(c.MainGeometry().principal_point[s]);
+	out += frame.PrincipalPoint(c.MainGeometry().states[s].principal_point);
 	const double bar = html::RoundNumber(80 / (frame.scale * factor));
 	out += fmt::format("<path d=\"M2 {0:.1f}v-4v8v-4h{1:.1f}v-4v8\" stroke=\"#222\" fill=\"none\"/>\n", frame.height + 15, bar * frame.scale * factor);
 	out += Text(8 + bar * frame.scale * factor, frame.height + 19, fmt::format("{:g} px; arrows from measured to reprojected, {:g} times as long; + principal point", bar, factor));
@@ -241,7 +242,7 @@ std::string BlurMap(const Calibration& c, size_t s, bool across_radius)
 			if (!std::isfinite(difference))
 				continue;
 			const Point normal = EdgeNormal(e);
-			const Point& centre = c.MainGeometry().principal_point[s];
+			const Point& centre = c.MainGeometry().states[s].principal_point;
 			const double x = e.x - centre[0], y = e.y - centre[1];
 			sizes.push_back(std::abs(difference));
 			if ((2 * std::pow(x * normal[0] + y * normal[1], 2) > x * x + y * y) == across_radius)
@@ -263,7 +264,7 @@ std::string BlurMap(const Calibration& c, size_t s, bool across_radius)
 	std::sort(order.begin(), order.end(), [](int a, int b) { return std::abs(a) < std::abs(b) || (std::abs(a) == std::abs(b) && a < b); });
 	for (const int step : order)
 		out += fmt::format("<path d=\"{}\" stroke=\"{}\" stroke-width=\"3.2\" fill=\"none\"/>\n", paths[step], SignedColour(double(step) / steps));
-	out += frame.PrincipalPoint(c.MainGeometry().principal_point[s]);
+	out += frame.PrincipalPoint(c.MainGeometry().states[s].principal_point);
 	for (int step = -steps; step <= steps; ++step)
 		out += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"9\" height=\"12\" fill=\"{}\"/>\n", 70 + 9.0 * (step + steps), frame.height + 9, SignedColour(double(step) / steps));
 	out += Text(64, frame.height + 19, fmt::format("−{:g} px", range), "end") + Text(266, frame.height + 19, fmt::format("+{:g} px and beyond; strokes lie along the edges", range));

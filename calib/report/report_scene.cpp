@@ -2,6 +2,7 @@
 
 #include "report/report_scene.h"
 
+#include "lens/angles.h"
 #include "report/html.h"
 #include "report/page_view.h"
 
@@ -82,7 +83,7 @@ private:
 		std::string d;
 		for (const auto& segment : scene.boards[p].sharp)
 		{
-			const PagePoint a = view(segment[0]), b = view(segment[1]);
+			const SketchPoint a = view(segment[0]), b = view(segment[1]);
 			d += fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f}", a.x, a.y, b.x, b.y);
 		}
 		return d.empty() ? "" : fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"3.5\" stroke-linecap=\"round\"/>\n", d, html::PhotoColour(p));
@@ -103,7 +104,7 @@ private:
 			Vec3<double> centre{ 0, 0, 0 };
 			for (const Vec3<double>& P : corners)
 				centre = centre + 0.25 * P;
-			const PagePoint at = view(centre + 1.07 * (corners[p % 4] - centre));
+			const SketchPoint at = view(centre + 1.07 * (corners[p % 4] - centre));
 			out += svg::Text({ at.x, at.y + 5 }, std::to_string(p + 1), "middle", fmt::format("class=\"number\" fill=\"{}\"", html::PhotoColour(p)));
 		}
 		return out;
@@ -127,7 +128,7 @@ private:
 		if (meets)
 			extent.push_back(ScheimpflugHeight() * up - scene.w * AHEAD);
 		const PageView view(AHEAD, up, extent, side);
-		const PagePoint origin = view(ORIGIN);
+		const SketchPoint origin = view(ORIGIN);
 		std::string out = fmt::format("<g class=\"side\" data-px-per-mm=\"{:.6f}\" data-axis-x=\"{:.3f}\" data-axis-y=\"{:.3f}\">\n", view.Scale(), origin.x, origin.y);
 		out += svg::Text({ side.x, 24 }, scene.has_hinge ? "Side view, along the hinge line" : "Side view, from the right", "start", "class=\"title\"");
 		out += Frustum(view) + svg::Line(view, -1.3 * scene.w * AHEAD, scene.far * AHEAD, AXIS);
@@ -171,7 +172,7 @@ private:
 	std::string Scheimpflug(const PageView& view) const
 	{
 		const Vec3<double> meet = ScheimpflugHeight() * scene.tilt_up - scene.w * AHEAD;
-		const PagePoint at = view(meet);
+		const SketchPoint at = view(meet);
 		return svg::Line(view, ORIGIN, meet, LENS_PLANE) + svg::Line(view, -scene.w * AHEAD, meet, SENSOR_PLANE)
 			+ svg::Line(view, scene.hinge, meet, THIN_BLUE) + svg::Line(view, ORIGIN, scene.hinge, "stroke=\"#999\" stroke-width=\"1\"")
 			+ fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"3.5\" fill=\"#222\"/>\n", at.x, at.y)
@@ -196,7 +197,7 @@ private:
 
 	std::string HingeFromTheSide(const PageView& view) const
 	{
-		const PagePoint at = view(scene.hinge);
+		const SketchPoint at = view(scene.hinge);
 		return fmt::format("<circle class=\"hinge\" cx=\"{:.3f}\" cy=\"{:.3f}\" r=\"5\" fill=\"#fff\" stroke=\"#1565c0\" stroke-width=\"2.5\"/>\n", at.x, at.y)
 			+ svg::Text({ at.x + 14, at.y + 4 }, HingeText(), "start", "class=\"strong\"");
 	}
@@ -210,7 +211,7 @@ private:
 		std::string out;
 		if (std::isfinite(U) && U > 0 && U < scene.far)
 		{
-			const PagePoint at = view(U * AHEAD), origin = view(ORIGIN);
+			const SketchPoint at = view(U * AHEAD), origin = view(ORIGIN);
 			out += fmt::format("<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"3.5\" fill=\"#1565c0\"/>\n", at.x, at.y)
 				+ svg::Text({ origin.x + 0.45 * (at.x - origin.x), at.y - 7 }, "U = " + html::Number(U, 1) + " mm", "middle", "class=\"strong\"");
 		}
@@ -225,7 +226,7 @@ private:
 	/// From over the camera's shoulder; from ahead of it where that would show the plane of focus edge-on; else from higher up.
 	ViewAxes AxesThatShowThePlane() const
 	{
-		const double degree = 3.14159265358979323846 / 180, enough = 0.35;
+		const double degree = tilt_lens::PI / 180, enough = 0.35;
 		// A lens focused at infinity has no plane to show.
 		const Vec3<double> m = tilt_lens::MaxAbs(scene.q) > 0 ? tilt_lens::Normalized(scene.q) : AHEAD;
 		ViewAxes best{};
@@ -261,7 +262,7 @@ private:
 		for (size_t p = 0; p < scene.boards.size(); ++p)
 			out += Sharp(view, p);
 		out += BoardNumbers(view) + Disc(view);
-		const PagePoint eye = view(ORIGIN);
+		const SketchPoint eye = view(ORIGIN);
 		out += svg::Text({ eye.x - 4, eye.y + 34 }, "camera", "middle") + ScaleBar(view, oblique.x, oblique.y + oblique.height + 16);
 		out += svg::Text({ oblique.x + oblique.width, oblique.y + oblique.height + 24 }, "bold: where a board meets the " + FocusName(), "end");
 		return out + "</g>\n";
@@ -325,7 +326,7 @@ private:
 		Polygon rim, sensor;
 		for (int k = 0; k < 48; ++k)
 		{
-			const double a = 2 * 3.14159265358979323846 * k / 48;
+			const double a = 2 * tilt_lens::PI * k / 48;
 			rim.push_back(scene.d / 2 * (std::cos(a) * basis.a + std::sin(a) * basis.b));
 		}
 		for (const Vec3<double>& corner : scene.corner_rays)
@@ -349,7 +350,7 @@ private:
 		if (scene.has_hinge)
 			out += svg::Line(view, ORIGIN, 0.5 * scene.w * n, LENS_PLANE);
 		out += LensAndSensor(view);
-		const PagePoint lens_at = view(ORIGIN), sensor_at = view(-scene.w * AHEAD), axis_end = view(0.5 * scene.w * AHEAD);
+		const SketchPoint lens_at = view(ORIGIN), sensor_at = view(-scene.w * AHEAD), axis_end = view(0.5 * scene.w * AHEAD);
 		out += svg::Text({ (lens_at.x + sensor_at.x) / 2, lens_at.y - 7 }, "w = " + html::Number(scene.w, 2) + " mm", "middle", "class=\"strong\"");
 		out += svg::Text({ sensor_at.x - 8, sensor_at.y - 7 }, "sensor", "end");
 		out += svg::Text({ axis_end.x + 12, axis_end.y - 34 }, "d = " + html::Number(scene.d, 2) + " mm", "start", "class=\"strong\"");

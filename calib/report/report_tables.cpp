@@ -2,12 +2,12 @@
 
 #include "report/report_tables.h"
 
+#include "model/predict.h"
 #include <tiltcal/calibrate.h>
 #include "effects/effects.h"
 #include "base/files.h"
 #include "report/html.h"
 #include "report/overlay.h"
-#include "calibrate/verdict.h"
 
 #include <fmt/format.h>
 
@@ -63,10 +63,10 @@ Rows StateRows(const Calibration& c)
 		const bool tilted = c.task.states[s].tilted;
 		rows.push_back({ Escape(c.task.states[s].name), tilted ? WithSigma(l.lens_tilt, "°") : "none", tilted ? WithSigma(l.tilt_direction, "°") : "–", tilted ? WithSigma(l.focal_plane_tilt, "°") : "parallel",
 			WithSigma(l.focus_distance, "mm", 1), WithSigma(l.focal_length, "mm"), WithSigma(FNumber(c.solution, l), ""),
-			PointText(g.principal_point[s], g.principal_point_sigma[s], "px") + (g.principal_point_fixed[s] ? " (held)" : ""), Number(l.rms_blur, 3) + " px", std::to_string(c.task.states[s].photos.size()) });
+			PointText(g.states[s].principal_point, g.states[s].principal_point_sigma, "px") + (g.states[s].principal_point_fixed ? " (held)" : ""), Number(l.rms_blur, 3) + " px", std::to_string(c.task.states[s].photos.size()) });
 		if (g.shared_poses)
 		{
-			const Vec3<double>&at = g.lens_centre[s], &sigma = g.lens_centre_sigma[s];
+			const Vec3<double>&at = g.states[s].lens_centre, &sigma = g.states[s].lens_centre_sigma;
 			rows.back().insert(rows.back().end() - 2, tilted ? WithSigma({ at.x, sigma.x }, "") + ", " + WithSigma({ at.y, sigma.y }, "") + ", " + WithSigma({ at.z, sigma.z }, "mm") : "–");
 		}
 	}
@@ -92,7 +92,7 @@ Rows CommonRows(const Calibration& c)
 	rows.push_back({ "aperture diameter d", WithSigma(s.aperture_diameter, "mm"), "of the effective aperture" });
 	rows.push_back({ "focal length f", WithSigma(s.focal_length, "mm"), "untilted" });
 	rows.push_back({ "focus distance U", WithSigma(s.focus_distance, "mm", 1), "untilted, along the axis" });
-	if (s.model == "curved")
+	if (s.model == Model::CURVED)
 	{
 		rows.push_back({ "field curvature C", WithSigma(PerMetre(s.field_curvature), "per metre"), "of the bowl that the plane of focus touches on the lens axis; mean of the two below" });
 		rows.push_back({ "tangential", WithSigma(PerMetre(s.tangential_curvature), "per metre"), "seen by edges across the radius" });
@@ -105,7 +105,7 @@ Rows CommonRows(const Calibration& c)
 	for (const size_t k : used)
 		rows.push_back({ std::string("distortion ") + names[k], WithSigma({ g.distortion[k], g.distortion_sigma[k] }, "", 5), "Brown–Conrady, about the lens axis, in units of w" });
 	if (used.empty())
-		rows.push_back({ "distortion", "none", s.model == "paper" ? "the paper's model has none" : "k1 would not lower the misfit enough to be believed" });
+		rows.push_back({ "distortion", "none", s.model == Model::PAPER ? "the paper's model has none" : "k1 would not lower the misfit enough to be believed" });
 	rows.push_back({ "reprojection", Number(g.rms, 3) + " px", "RMS" + (used.empty() ? std::string() : "; " + Number(c.pinhole.rms, 3) + " px without distortion") });
 	rows.push_back({ "blur misfit", Number(s.rms_blur, 3) + " px", "RMS of measured − predicted" });
 	return rows;
@@ -121,15 +121,15 @@ std::string TiltText(const StateLens& lens)
 std::string VerdictBox(const Calibration& c)
 {
 	// The paper's model is solved for comparison only and has no sigmas to be judged by.
-	if (c.solution.model == "paper")
+	if (c.solution.model == Model::PAPER)
 		return "<div class=\"verdict\"><b>No verdict:</b> the paper's model is not judged. Use --model auto for numbers to rely on.</div>\n";
-	const Verdict verdict = Judge(c);
+	const Verdict& verdict = c.verdict;
 	std::string remarks;
 	for (const Remark& r : verdict.remarks)
-		remarks += fmt::format("<li class=\"{}\"><b>{}</b> {}</li>\n", Name(r.grade), r.grade == Grade::GOOD ? "note:" : r.grade == Grade::FAIR ? "fair:" : "poor:", Escape(r.text));
+		remarks += fmt::format("<li class=\"{}\"><b>{}</b> {}</li>\n", NameOf(r.grade), r.grade == Grade::GOOD ? "note:" : r.grade == Grade::FAIR ? "fair:" : "poor:", Escape(r.text));
 	if (!remarks.empty())
 		remarks = "<ul>\n" + remarks + "</ul>\n";
-	return fmt::format("<div class=\"verdict {0}\"><b>Verdict: {0}</b>\n{1}</div>\n", Name(verdict.grade), remarks);
+	return fmt::format("<div class=\"verdict {0}\"><b>Verdict: {0}</b>\n{1}</div>\n", NameOf(verdict.grade), remarks);
 }
 
 std::string NumbersTables(const Calibration& c)
@@ -137,9 +137,9 @@ std::string NumbersTables(const Calibration& c)
 	return html::Table(Turned(StateRows(c))) + "<div class=\"common\">" + html::Table(CommonRows(c)) + "</div>\n";
 }
 
-std::string TellersTable(const Calibration& c)
+std::string EvidenceTable(const Calibration& c)
 {
-	// The paper's model has one teller only.
+	// The paper's model has blur only.
 	if (c.solution.states.size() < 2 || c.blur_alone.empty())
 		return "";
 	Rows rows{ { "lens tilt told by" } };
@@ -171,7 +171,7 @@ std::string EffectsTable(const Calibration& c)
 		std::string values;
 		for (const auto& [name, value] : e.values)
 			values += (values.empty() ? "" : "<br/>") + Escape(name) + " " + (value.sigma > 0 ? WithSigma(value, "") : fmt::format("{:g}", value.value));
-		rows.push_back({ Escape(e.name), known && !values.empty() ? values : "–", known && e.sigmas > 0 ? Number(e.sigmas, 1) + " sigma" : "–",
+		rows.push_back({ NameOf(e.id), known && !values.empty() ? values : "–", known && e.sigmas > 0 ? Number(e.sigmas, 1) + " sigma" : "–",
 			known && e.held_out_without > 0 ? fmt::format("{:.3g}", e.held_out_without) : "–", known && e.held_out_with > 0 ? fmt::format("{:.3g}", e.held_out_with) : "–",
 			known && e.held_out_with > 0 ? Escape(e.unit) : "–", e.used ? "<b>yes</b>" : "no", Escape(e.why) + (e.note.empty() ? "" : "<br/>" + Escape(e.note)) });
 	}
@@ -180,14 +180,15 @@ std::string EffectsTable(const Calibration& c)
 
 std::string ModelsTable(const Calibration& c)
 {
-	if (c.compared.empty())
+	if (!c.compared)
 		return "";
 	Rows rows{ { "model", "blur of photographs left out, RMS" } };
 	for (size_t s = 1; s < c.task.states.size(); ++s)
 		rows[0].push_back(Escape(c.task.states[s].name));
-	for (const Solution& s : c.compared)
+	for (const Solution* each : c.compared->All())
 	{
-		const std::string name = s.model + (s.model == c.solution.model ? " (taken)" : "");
+		const Solution& s = *each;
+		const std::string name = std::string(NameOf(s.model)) + (s.model == c.solution.model ? " (taken)" : "");
 		if (!s.failure.empty())
 		{
 			rows.push_back({ name, "no answer: " + Escape(s.failure) });
@@ -212,7 +213,7 @@ std::string PhotographsTable(const Calibration& c)
 			const BlurRatios ratios = RatiosOf(photo);
 			const auto left = std::find_if(c.solution.left_out.begin(), c.solution.left_out.end(), [&](const LeftOut& l) { return l.state == s && l.photo == p; });
 			const bool known = left != c.solution.left_out.end();
-			rows.push_back({ fmt::format("<i style=\"color:{}\">■</i> {} {}", html::PhotoColour(p), p + 1, Escape(BaseName(photo.file))), Escape(c.task.states[s].name), Number(g.photo_rms[s][p], 3),
+			rows.push_back({ fmt::format("<i style=\"color:{}\">■</i> {} {}", html::PhotoColour(p), p + 1, Escape(BaseName(photo.file))), Escape(c.task.states[s].name), Number(g.states[s].photo_rms[p], 3),
 				Number(RmsBlur(c, s, p), 3), std::to_string(photo.edges.size()), std::to_string(photo.edges_dropped), Number(ratios.least, 3), Number(ratios.median, 3), Number(ratios.most, 3),
 				known && s > 0 ? Number(left->tilt_change, 3) + "°" : "–", known ? Number(left->rms_blur, 3) : "–" });
 		}

@@ -19,12 +19,12 @@ std::string VerdictBox(const Calibration& calibration);
 std::string NumbersTables(const Calibration& calibration);
 
 /// The tilts by blur alone, by geometry alone and jointly. Empty without tilted states and for the paper's model.
-std::string TellersTable(const Calibration& calibration);
+std::string EvidenceTable(const Calibration& calibration);
 
 /// The effects: value, significance, held-out error, written or not and why. Empty when none were looked at.
 std::string EffectsTable(const Calibration& calibration);
 
-/// The models and what they foretell of photographs left out. Empty when none were compared.
+/// The models and what they predict of photographs left out. Empty when none were compared.
 std::string ModelsTable(const Calibration& calibration);
 
 /// One row per photograph: how well it fits, how blurred it is, what leaving it out changes.

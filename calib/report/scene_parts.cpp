@@ -2,6 +2,7 @@
 
 #include "report/scene_parts.h"
 
+#include "lens/angles.h"
 #include "model/projection.h"
 #include <tiltcal/calibrate.h>
 
@@ -16,7 +17,7 @@ namespace tiltcal
 namespace
 {
 
-const double RADIANS = 3.14159265358979323846 / 180;
+const double RADIANS = tilt_lens::RADIANS_PER_DEGREE;
 
 double Kappa(const SceneParts& scene, const Vec3<double>& v)
 {
@@ -125,17 +126,17 @@ SceneParts MakeScene(const Calibration& c, size_t s)
 	scene.d = c.solution.aperture_diameter.value;
 	scene.lens_normal = tilt_lens::LensFromPlane(lens.q, 1 / scene.w).normal;
 	scene.field_curvature = c.solution.field_curvature.value;
-	scene.far = DepthOf(c.task, g.poses[s], lens.focus_distance.value);
+	scene.far = DepthOf(c.task, g.states[s].poses, lens.focus_distance.value);
 	const double phi = lens.tilt_direction.value * RADIANS;
 	if (std::isfinite(phi))
 		scene.tilt_up = { std::sin(phi), std::cos(phi), 0 };
-	const Point& centre = g.principal_point[s];
+	const Point& centre = g.states[s].principal_point;
 	// Half a pixel beyond the outermost pixel centres.
 	const double left = -0.5 - centre[0], right = c.task.width - 0.5 - centre[0], top = centre[1] + 0.5, bottom = centre[1] - c.task.height + 0.5;
 	const double scale = c.task.pitch_mm / scene.w;
 	scene.corner_rays = { { { scale * left, scale * top, 1 }, { scale * right, scale * top, 1 }, { scale * right, scale * bottom, 1 }, { scale * left, scale * bottom, 1 } } };
 	AddFocus(scene);
-	for (const Pose& pose : g.poses[s])
+	for (const Pose& pose : g.states[s].poses)
 		scene.boards.push_back(MakeBoard(scene, c.task.board, pose));
 	const double across = std::hypot(lens.q.x, lens.q.y);
 	scene.has_hinge = across > 1e-9;

@@ -2,12 +2,13 @@
 
 #include "report/write_json.h"
 
+#include "lens/angles.h"
 #include "model/projection.h"
 #include <tiltcal/calibrate.h>
 #include "effects/effects.h"
 #include "calibrate/exif_check.h"
 #include "effects/fixed_blades.h"
-#include "calibrate/verdict.h"
+#include "camera/state_camera.h"
 
 #include <nlohmann/json.hpp>
 
@@ -22,7 +23,7 @@ namespace
 // Ordered: people read this file.
 using Json = nlohmann::ordered_json;
 
-const double DEGREES = 180 / 3.14159265358979323846;
+const double DEGREES = tilt_lens::DEGREES_PER_RADIAN;
 
 /// name_unit and name_sigma_unit.
 void Put(Json& json, const std::string& name, const std::string& unit, const Estimate& e)
@@ -45,37 +46,45 @@ Json RotationRows(const Pose& pose)
 Json PhotoJson(const Photo& photo, const Geometry& g, size_t s, size_t p)
 {
 	Json json;
-	const Pose& pose = g.poses[s][p];
-	const Pose& sigma = g.pose_sigmas[s][p];
+	const Pose& pose = g.states[s].poses[p];
+	const Pose& sigma = g.states[s].pose_sigmas[p];
 	json["file"] = photo.file;
 	json["rotation"] = RotationRows(pose);
 	json["rotation_sigma_deg"] = { sigma[0] * DEGREES, sigma[1] * DEGREES, sigma[2] * DEGREES };
 	json["translation_mm"] = { pose[3], pose[4], pose[5] };
 	json["translation_sigma_mm"] = { sigma[3], sigma[4], sigma[5] };
-	json["rms_reprojection_px"] = g.photo_rms[s][p];
+	json["rms_reprojection_px"] = g.states[s].photo_rms[p];
 	json["edges"] = photo.edges.size();
 	json["edges_dropped"] = photo.edges_dropped;
 	return json;
 }
 
+/// name_unit and name_sigma_unit of a place in the picture.
+void PutPrincipalPoint(Json& json, const StateCamera& camera)
+{
+	json["principal_point_px"] = camera.principal_point;
+	json["principal_point_sigma_px"] = camera.sigma.principal_point;
+}
+
 Json StateJson(const Calibration& c, const Solution& solution, const Geometry& g, size_t s)
 {
+	const StateCamera camera = CameraOfFit(c.task, solution, g, s);
 	const StateLens& lens = solution.states[s];
 	const State& state = c.task.states[s];
+	const auto vector = [](const Vec3<double>& v) { return Json{ v.x, v.y, v.z }; };
 	Json json;
-	json["name"] = state.name;
-	Put(json, "lens_tilt", "_deg", lens.lens_tilt);
-	Put(json, "tilt_direction", "_deg", lens.tilt_direction);
-	Put(json, "focal_plane_tilt", "_deg", lens.focal_plane_tilt);
-	Put(json, "focus_distance", "_mm", lens.focus_distance);
-	Put(json, "focal_length", "_mm", lens.focal_length);
-	json["principal_point_px"] = g.principal_point[s];
-	json["principal_point_sigma_px"] = g.principal_point_sigma[s];
-	json["principal_point_fixed"] = bool(g.principal_point_fixed[s]);
-	json["lens_centre_mm"] = { g.lens_centre[s].x, g.lens_centre[s].y, g.lens_centre[s].z };
-	json["lens_centre_sigma_mm"] = { g.lens_centre_sigma[s].x, g.lens_centre_sigma[s].y, g.lens_centre_sigma[s].z };
-	json["inverse_focus_per_mm"] = { lens.q.x, lens.q.y, lens.q.z };
-	json["inverse_focus_sigma_per_mm"] = { lens.q_sigma.x, lens.q_sigma.y, lens.q_sigma.z };
+	json["name"] = camera.state;
+	Put(json, "lens_tilt", "_deg", { camera.lens_tilt_deg, camera.sigma.lens_tilt_deg });
+	Put(json, "tilt_direction", "_deg", { camera.tilt_direction_deg, camera.sigma.tilt_direction_deg });
+	Put(json, "focal_plane_tilt", "_deg", { camera.focal_plane_tilt_deg, camera.sigma.focal_plane_tilt_deg });
+	Put(json, "focus_distance", "_mm", { camera.focus_distance_mm, camera.sigma.focus_distance_mm });
+	Put(json, "focal_length", "_mm", { camera.focal_length_mm, camera.sigma.focal_length_mm });
+	PutPrincipalPoint(json, camera);
+	json["principal_point_fixed"] = g.states[s].principal_point_fixed;
+	json["lens_centre_mm"] = vector(camera.lens_centre_mm);
+	json["lens_centre_sigma_mm"] = vector(camera.sigma.lens_centre_mm);
+	json["inverse_focus_per_mm"] = vector(lens.q);
+	json["inverse_focus_sigma_per_mm"] = vector(lens.q_sigma);
 	json["rms_blur_px"] = lens.rms_blur;
 	json["chosen_by_power"] = lens.chosen_by_power;
 	json["photos"] = Json::array();
@@ -84,15 +93,15 @@ Json StateJson(const Calibration& c, const Solution& solution, const Geometry& g
 	return json;
 }
 
-/// The tilts as blur and geometry tell them, each alone.
-Json TellersJson(const Calibration& c)
+/// The tilts by blur alone and by geometry alone.
+Json EvidenceJson(const Calibration& c)
 {
 	Json json = Json::object();
-	const auto add = [&](const char* teller, const std::vector<StateLens>& states)
+	const auto add = [&](const char* evidence, const std::vector<StateLens>& states)
 	{
 		for (size_t s = 1; s < states.size(); ++s)
 		{
-			Json& state = json[teller][c.task.states[s].name];
+			Json& state = json[evidence][c.task.states[s].name];
 			Put(state, "lens_tilt", "_deg", states[s].lens_tilt);
 			Put(state, "tilt_direction", "_deg", states[s].tilt_direction);
 		}
@@ -106,30 +115,30 @@ Json TellersJson(const Calibration& c)
 
 Json SolutionJson(const Calibration& c, const Solution& solution, const Geometry& g)
 {
+	const StateCamera camera = CameraOfFit(c.task, solution, g, 0);
 	Json json;
-	json["model"] = solution.model;
-	Put(json, "image_distance", "_mm", solution.w_mm);
+	json["model"] = camera.model;
+	Put(json, "image_distance", "_mm", { camera.image_distance_mm, camera.sigma.image_distance_mm });
 	Put(json, "focal_length", "_mm", solution.focal_length);
 	Put(json, "focus_distance", "_mm", solution.focus_distance);
-	Put(json, "aperture_diameter", "_mm", solution.aperture_diameter);
-	json["principal_point_px"] = g.principal_point[0];
-	json["principal_point_sigma_px"] = g.principal_point_sigma[0];
+	Put(json, "aperture_diameter", "_mm", { camera.aperture_diameter_mm, camera.sigma.aperture_diameter_mm });
+	PutPrincipalPoint(json, camera);
 	const char* const names[] = { "k1", "k2", "p1", "p2", "k3" };
 	for (size_t k = 0; k < 5; ++k)
 	{
-		json["distortion"][names[k]] = g.distortion[k];
-		json["distortion"][std::string(names[k]) + "_sigma"] = g.distortion_sigma[k];
+		json["distortion"][names[k]] = camera.distortion[k];
+		json["distortion"][std::string(names[k]) + "_sigma"] = camera.sigma.distortion[k];
 	}
 	json["distortion_terms"] = g.distortion_terms;
 	json["distortion_axis"] = "lens axis";
 	json["shared_poses"] = g.shared_poses;
-	Put(json, "field_curvature", "_per_mm", solution.field_curvature);
-	if (solution.model == "curved")
+	Put(json, "field_curvature", "_per_mm", { camera.field_curvature_per_mm, camera.sigma.field_curvature_per_mm });
+	if (solution.model == Model::CURVED)
 	{
 		Put(json, "tangential_curvature", "_per_mm", solution.tangential_curvature);
 		Put(json, "sagittal_curvature", "_per_mm", solution.sagittal_curvature);
 	}
-	Put(json, "psf_floor", "_px", solution.psf_floor_px);
+	Put(json, "psf_floor", "_px", { camera.psf_floor_px, camera.sigma.psf_floor_px });
 	json["rms_reprojection_px"] = g.rms;
 	json["rms_blur_px"] = solution.rms_blur;
 	json["states"] = Json::array();
@@ -138,7 +147,8 @@ Json SolutionJson(const Calibration& c, const Solution& solution, const Geometry
 	return json;
 }
 
-Json Rounded(double x) { return std::isfinite(x) && x > 0 ? Json(x) : Json(); }
+/// Null for what was not found out.
+Json PositiveOrNull(double x) { return std::isfinite(x) && x > 0 ? Json(x) : Json(); }
 
 Json VignettingJson(const Calibration& c)
 {
@@ -147,13 +157,13 @@ Json VignettingJson(const Calibration& c)
 	Json json;
 	if (!v.failure.empty())
 		return { { "failure", v.failure } };
-	json["natural"] = Uses(c, "vignetting_natural");
+	json["natural"] = Uses(c, EffectId::VIGNETTING_NATURAL);
 	if (const FalloffAnswer& rim = RimOf(c); rim.rim_seen)
 	{
 		Put(json["optical"], "radius", "_mm", rim.radius_mm);
 		Put(json["optical"], "distance", "_mm", rim.distance_mm);
 		Put(json["optical"], "darkening", "", rim.darkening);
-		json["optical"]["used"] = Uses(c, "vignetting_optical");
+		json["optical"]["used"] = Uses(c, EffectId::VIGNETTING_OPTICAL);
 		for (const RimEstimate& r : rim.rims)
 		{
 			Json& entry = json["optical"]["rims"].emplace_back();
@@ -161,15 +171,15 @@ Json VignettingJson(const Calibration& c)
 			Put(entry, "distance", "_mm", r.distance_mm);   // < 0: behind the lens
 		}
 		if (!rim.second.why.empty())
-			json["optical"]["second"] = { { "used", rim.second.used }, { "sigmas", Rounded(rim.second.sigmas) }, { "held_out_sigmas_without", Rounded(rim.second.held_out_without) },
-				{ "held_out_sigmas_with", Rounded(rim.second.held_out_with) }, { "why", rim.second.why } };
+			json["optical"]["second"] = { { "used", rim.second.used }, { "sigmas", PositiveOrNull(rim.second.sigmas) }, { "held_out_sigmas_without", PositiveOrNull(rim.second.held_out_without) },
+				{ "held_out_sigmas_with", PositiveOrNull(rim.second.held_out_with) }, { "why", rim.second.why } };
 	}
 	json["told_by"] = v.flat_field ? "flat fields" : "white squares";
 	json["patches"] = a.points.size();
 	json["rms_percent"] = 100 * a.rms;
 	const char* const kinds[] = { "none", "natural", "optical", "both" };
 	for (size_t k = 0; k < v.answers.size(); ++k)
-		json["held_out_percent"][kinds[k]] = Rounded(100 * v.answers[k].held_out);
+		json["held_out_percent"][kinds[k]] = PositiveOrNull(100 * v.answers[k].held_out);
 	json["gains"] = Json::array();
 	for (const FalloffGain& g : a.gains)
 		json["gains"].push_back({ { "state", c.task.states[g.state].name },
@@ -194,8 +204,8 @@ Json EffectsJson(const Calibration& c)
 {
 	Json list = Json::array();
 	for (const Effect& e : c.effects)
-		list.push_back({ { "name", e.name }, { "used", e.used }, { "sigmas", e.failure.empty() ? Rounded(e.sigmas) : Json() }, { "held_out_without", Rounded(e.held_out_without) },
-			{ "held_out_with", Rounded(e.held_out_with) }, { "unit", e.unit }, { "why", e.why } });
+		list.push_back({ { "name", NameOf(e.id) }, { "used", e.used }, { "sigmas", e.failure.empty() ? PositiveOrNull(e.sigmas) : Json() }, { "held_out_without", PositiveOrNull(e.held_out_without) },
+			{ "held_out_with", PositiveOrNull(e.held_out_with) }, { "unit", e.unit }, { "why", e.why } });
 	return list;
 }
 
@@ -228,27 +238,27 @@ std::string CalibrationJson(const Calibration& c)
 		json["comparison"]["paper"] = SolutionJson(c, c.paper, c.paper_geometry);
 	else
 		json["comparison"]["paper"] = { { "failure", c.paper.failure } };
-	for (const Solution& s : c.compared)
-	{
-		Json& entry = json["held_out_blur_px"][s.model];
-		entry = s.failure.empty() && s.held_out_px > 0 ? Json(s.held_out_px) : Json();
-	}
+	if (c.compared)
+		for (const Solution* s : c.compared->All())
+		{
+			Json& entry = json["held_out_blur_px"][NameOf(s->model)];
+			entry = s->failure.empty() && s->held_out_px > 0 ? Json(s->held_out_px) : Json();
+		}
 	for (const Prior& prior : c.task.priors)
 		json["priors"][prior.Name()] = { { "value", prior.value }, { "sigma", prior.sigma } };
 	for (const Correlation& r : c.solution.correlations)
 		json["correlations"][r.first][r.second] = r.value;
-	json["tilt_told_by"] = TellersJson(c);
+	json["tilt_told_by"] = EvidenceJson(c);
 	json["left_out"] = Json::array();
 	for (const LeftOut& l : c.solution.left_out)
 		json["left_out"].push_back({ { "state", c.task.states[l.state].name }, { "file", c.task.states[l.state].photos[l.photo].file },
 			{ "tilt_change_deg", l.tilt_change }, { "rms_blur_px", l.rms_blur } });
-	const Verdict verdict = Judge(c);
-	json["verdict"]["grade"] = Name(verdict.grade);
+	json["verdict"]["grade"] = NameOf(c.verdict.grade);
 	json["verdict"]["remarks"] = Json::array();
-	for (const Remark& remark : verdict.remarks)
-		json["verdict"]["remarks"].push_back({ { "grade", Name(remark.grade) }, { "text", remark.text } });
+	for (const Remark& remark : c.verdict.remarks)
+		json["verdict"]["remarks"].push_back({ { "grade", NameOf(remark.grade) }, { "text", remark.text } });
 	json["render"] = SolutionJson(c, c.render, c.RenderGeometry());
-	json["render"]["note"] = "the camera without distortion that the .inc files hold unless TiltCal_Distortion is set";
+	json["render"]["note"] = "the camera without distortion that the .inc files take where TiltCal_Distortion is set to 0, or where this lens needs no distortion";
 	json["program"] = "tiltcal " TILTCAL_VERSION;
 	return json.dump(1, '\t') + "\n";
 }

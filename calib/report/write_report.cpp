@@ -2,6 +2,7 @@
 
 #include "report/write_report.h"
 
+#include "model/predict.h"
 #include <tiltcal/calibrate.h>
 #include "effects/effects.h"
 #include "base/files.h"
@@ -34,12 +35,12 @@ std::string StateRows(const Calibration& c, const Solution& solution, const Geom
 		const StateLens& l = solution.states[s];
 		const bool tilted = c.task.states[s].tilted;
 		double squares = 0;
-		for (const double r : g.photo_rms[s])
+		for (const double r : g.states[s].photo_rms)
 			squares += r * r;
-		rows += fmt::format("{:<12} {:<6} {:>6} {:>16} {:>14} {:>16} {:>16} {:>9.3f} {:>8.3f}\n", c.task.states[s].name, solution.model,
+		rows += fmt::format("{:<12} {:<6} {:>6} {:>16} {:>14} {:>16} {:>16} {:>9.3f} {:>8.3f}\n", c.task.states[s].name, NameOf(solution.model),
 			c.task.states[s].photos.size(), tilted ? PlusMinus(l.lens_tilt, 3) : "0", tilted ? PlusMinus(l.tilt_direction, 2) : "-",
 			tilted ? PlusMinus(l.focal_plane_tilt, 2) : "0", PlusMinus(l.focus_distance, 1),
-			std::sqrt(squares / double(g.photo_rms[s].size())), l.rms_blur);
+			std::sqrt(squares / double(g.states[s].photo_rms.size())), l.rms_blur);
 	}
 	return rows;
 }
@@ -47,8 +48,8 @@ std::string StateRows(const Calibration& c, const Solution& solution, const Geom
 std::string ModelLine(const Solution& s)
 {
 	if (!s.failure.empty())
-		return fmt::format("{:<6} no answer: {}\n", s.model, s.failure);
-	return fmt::format("{:<6} w {} mm   d {} mm   U {} mm   f {} mm   floor {:.2f} px\n", s.model, PlusMinus(s.w_mm, 3),
+		return fmt::format("{:<6} no answer: {}\n", NameOf(s.model), s.failure);
+	return fmt::format("{:<6} w {} mm   d {} mm   U {} mm   f {} mm   floor {:.2f} px\n", NameOf(s.model), PlusMinus(s.w_mm, 3),
 		PlusMinus(s.aperture_diameter, 3), PlusMinus(s.focus_distance, 1), PlusMinus(s.focal_length, 3), s.psf_floor_px.value);
 }
 
@@ -60,19 +61,20 @@ std::string CurvatureLine(const Solution& s)
 		PerMetre(s.field_curvature), PerMetre(s.tangential_curvature), PerMetre(s.sagittal_curvature));
 }
 
-/// How well each model foretells the blur of photographs that it was not fitted to, and the tilts it finds.
+/// How well each model predicts the blur of photographs that it was not fitted to, and the tilts it finds.
 std::string Comparison(const Calibration& c)
 {
 	std::string out = "\nblur of photographs left out, in turn, of the fit:\n";
 	const Solution* best = nullptr;
-	for (const Solution& s : c.compared)
+	for (const Solution* each : c.compared->All())
 	{
+		const Solution& s = *each;
 		if (!s.failure.empty())
 		{
-			out += fmt::format("  {:<6} no answer: {}\n", s.model, s.failure);
+			out += fmt::format("  {:<6} no answer: {}\n", NameOf(s.model), s.failure);
 			continue;
 		}
-		out += fmt::format("  {:<6} {}", s.model, s.held_out_px > 0 ? fmt::format("{:.3f} px", s.held_out_px) : "cannot be said of one photograph a state");
+		out += fmt::format("  {:<6} {}", NameOf(s.model), s.held_out_px > 0 ? fmt::format("{:.3f} px", s.held_out_px) : "cannot be said of one photograph a state");
 		for (size_t k = 1; k < s.states.size(); ++k)
 			out += fmt::format("   {} {:.3f} deg towards {:.2f}", c.task.states[k].name, s.states[k].lens_tilt.value, s.states[k].tilt_direction.value);
 		out += "\n";
@@ -80,13 +82,13 @@ std::string Comparison(const Calibration& c)
 			best = &s;
 	}
 	if (best)
-		out += fmt::format("  {} foretells them best{}\n", best->model, best->model == c.solution.model ? ", and was taken"
-			: fmt::format("; {} was taken, see --help. The difference is small when their tilts agree", c.solution.model));
+		out += fmt::format("  {} predicts them best{}\n", NameOf(best->model), best->model == c.solution.model ? ", and was taken"
+			: fmt::format("; {} was taken, see --help. The difference is small when their tilts agree", NameOf(c.solution.model)));
 	return out;
 }
 
-/// The tilts as told by blur, by geometry and by both.
-std::string Tellers(const Calibration& c)
+/// The tilts by blur alone, by geometry alone and by both.
+std::string Evidence(const Calibration& c)
 {
 	std::string out = "\nwhat tells the tilt:\n";
 	const auto row = [&](const char* name, const std::vector<StateLens>& states)
@@ -101,9 +103,9 @@ std::string Tellers(const Calibration& c)
 	row("jointly", c.solution.states);
 	if (!c.geometry_alone.states.empty())
 		out += fmt::format("  geometry alone sees a pupil magnification of {}\n", PlusMinus(c.geometry_alone.pupil_magnification, 3));
-	for (size_t s = 1; c.geometry.shared_poses && s < c.geometry.lens_centre.size(); ++s)
+	for (size_t s = 1; c.geometry.shared_poses && s < c.geometry.states.size(); ++s)
 	{
-		const Vec3<double>&at = c.geometry.lens_centre[s], &sigma = c.geometry.lens_centre_sigma[s];
+		const Vec3<double>&at = c.geometry.states[s].lens_centre, &sigma = c.geometry.states[s].lens_centre_sigma;
 		out += fmt::format("  the lens centre moved by ({:.3f}, {:.3f}, {:.3f}) +- ({:.3f}, {:.3f}, {:.3f}) mm in {}\n", at.x, at.y, at.z, sigma.x, sigma.y, sigma.z, c.task.states[s].name);
 	}
 	return out;
@@ -111,7 +113,7 @@ std::string Tellers(const Calibration& c)
 
 std::string VerdictText(const Verdict& verdict)
 {
-	std::string out = fmt::format("\nverdict: {}\n", Name(verdict.grade));
+	std::string out = fmt::format("\nverdict: {}\n", NameOf(verdict.grade));
 	for (const Remark& r : verdict.remarks)
 		out += fmt::format("  {} {}\n", r.grade == Grade::GOOD ? "note:" : r.grade == Grade::FAIR ? "fair:" : "POOR:", r.text);
 	return out;
@@ -146,7 +148,7 @@ void PlotBlur(const Calibration& c, size_t s, const std::string& folder)
 		"set yrange [-3:3]\nset ylabel 'measured - predicted [px]'\nset xlabel 'predicted blur [px]'\n"
 		"plot 0 with lines lc rgb '#888888' notitle, for [i=1:{2}] {3} every ::1 using ($1==i?$7:1/0):($5-$7) with points pt 7 ps 0.5 lc i title sprintf('%d',i)\n"
 		"unset multiplot\n",
-		GnuplotString(fmt::format("Blur width, state {} (model {}, {:.2f} px RMS)", name, c.solution.model, c.solution.states[s].rms_blur)),
+		GnuplotString(fmt::format("Blur width, state {} (model {}, {:.2f} px RMS)", name, NameOf(c.solution.model), c.solution.states[s].rms_blur)),
 		1.05 * most, photos, GnuplotString(data));
 	Plot(Join(folder, "blur-" + name + ".png"), script, 900, 900);
 }
@@ -156,7 +158,7 @@ void PlotBlur(const Calibration& c, size_t s, const std::string& folder)
 std::string SummaryTable(const Calibration& c)
 {
 	std::string out = ModelLine(c.solution);
-	const bool compare = c.solution.model != "paper";
+	const bool compare = c.solution.model != Model::PAPER;
 	if (compare)
 		out += ModelLine(c.paper);
 	out += fmt::format("\n{:<12} {:<6} {:>6} {:>16} {:>14} {:>16} {:>16} {:>9} {:>8}\n", "state", "model", "photos", "lens tilt deg", "direction deg",
@@ -170,20 +172,20 @@ std::string SummaryTable(const Calibration& c)
 		out += fmt::format(" (k1 {:.4f}, k2 {:.4f}, p1 {:.5f}, p2 {:.5f}, k3 {:.4f}, about the lens axis); {:.3f} px without distortion", g.distortion[0],
 			g.distortion[1], g.distortion[2], g.distortion[3], g.distortion[4], c.pinhole.rms);
 	out += fmt::format("; blur {:.3f} px RMS\n", c.solution.rms_blur);
-	if (c.solution.model == "curved")
+	if (c.solution.model == Model::CURVED)
 		out += CurvatureLine(c.solution);
 	if (!c.effects.empty())
 		out += EffectsText(c);
 	if (!c.blur_alone.empty() && c.task.states.size() > 1)
-		out += Tellers(c);
-	if (!c.compared.empty())
+		out += Evidence(c);
+	if (c.compared)
 		out += Comparison(c);
-	if (c.solution.model != "paper")
-		out += VerdictText(Judge(c));
+	if (c.solution.model != Model::PAPER)
+		out += VerdictText(c.verdict);
 	return out;
 }
 
-void WriteEverything(const Calibration& c, const Transfer& transfer, const std::string& folder, const std::string& refinement)
+void WriteEverything(const Calibration& c, const RunNotes& notes, const ReadGrey& read, const std::string& folder)
 {
 	ReportPictures pictures(c.task);
 	for (size_t s = 0; s < c.task.states.size(); ++s)
@@ -191,9 +193,7 @@ void WriteEverything(const Calibration& c, const Transfer& transfer, const std::
 		spdlog::info("state {}: drawing overlays and plot", c.task.states[s].name);
 		for (size_t p = 0; p < c.task.states[s].photos.size(); ++p)
 		{
-			const std::string& file = c.task.states[s].photos[p].file;
-			const cv::Mat grey = Luminance(ReadLinear(file, transfer));
-			const cv::Mat overlay = DrawOverlay(grey, c, s, p);
+			const cv::Mat overlay = DrawOverlay(read(s, p), c, s, p);
 			WritePng(Join(folder, fmt::format("overlay-{}-{}.png", c.task.states[s].name, p + 1)), overlay);
 			pictures.Add(overlay);
 		}
@@ -203,7 +203,7 @@ void WriteEverything(const Calibration& c, const Transfer& transfer, const std::
 	WriteText(Join(folder, "report.txt"), SummaryTable(c));
 	WriteText(Join(folder, "calibration.json"), CalibrationJson(c));
 	spdlog::info("writing report.html");
-	WriteText(Join(folder, "report.html"), ReportHtml(c, NotesOfThisRun(refinement), pictures));
+	WriteText(Join(folder, "report.html"), ReportHtml(c, notes, pictures));
 }
 
 }

@@ -2,6 +2,7 @@
 
 #include "solve/blur_fit.h"
 
+#include "model/predict.h"
 #include "model/projection.h"
 #include <tiltcal/error.h>
 #include "model/footprint.h"
@@ -53,7 +54,7 @@ void Build(const BlurFit& fit, ceres::Problem& problem, Unknowns& x, Free free, 
 	if (!fit.priors.empty() && (free == Free::EVERYTHING || state == 0) && problem.HasParameterBlock(x.state[0].data()))
 	{
 		double* const w = const_cast<double*>(&fit.w_mm);   // held
-		AddPriors(fit.priors, fit.model, w, 1, &x.d, &x.power, x.state[0].data(), problem);
+		AddPriors(fit.priors, fit.model, { w, 1, &x.d, &x.power, x.state[0].data() }, problem);
 		problem.SetParameterBlockConstant(w);
 	}
 	HoldUnused(fit.model, x, problem);
@@ -92,26 +93,33 @@ void HoldUnused(LensModel model, Unknowns& x, ceres::Problem& problem)
 		problem.SetManifold(x.curvature.data(), new ceres::SubsetManifold(2, { 1 }));
 }
 
-Eigen::MatrixXd PlanesByUnknowns(LensModel model, const Unknowns& x, double w_mm)
+LensCovariance CovarianceOfPlanes(LensModel model, const Unknowns& x, double w_mm, const Eigen::MatrixXd& of_unknowns)
 {
+	using At = LensCovariance::At;
+	using Number = LensCovariance::Number;
 	using Jet = ceres::Jet<double, 5>;
-	const int states = int(x.state.size());
-	Eigen::MatrixXd J = Eigen::MatrixXd::Zero(5 + 3 * states, 6 + 3 * states);
-	J(0, 0) = J(1, 1) = J(2, 2) = J(3, 4) = J(4, 5) = 1;
-	for (int s = 0; s < states; ++s)
+	const size_t states = x.state.size();
+	Eigen::MatrixXd J = Eigen::MatrixXd::Zero(LensCovariance::Size(states), UnknownIndex::OfState(states));
+	J(At(Number::IMAGE_DISTANCE).index, UnknownIndex::W) = 1;
+	J(At(Number::APERTURE_DIAMETER).index, UnknownIndex::D) = 1;
+	J(At(Number::FLOOR_SQUARED).index, UnknownIndex::FLOOR_SQUARED) = 1;
+	J(At(Number::CURVATURE).index, UnknownIndex::CURVATURE) = 1;
+	J(At(Number::HALF_CURVATURE_DIFFERENCE).index, UnknownIndex::CURVATURE + 1) = 1;
+	for (size_t s = 0; s < states; ++s)
 	{
-		const StateNumbers& own = x.state[size_t(s)];
+		const StateNumbers& own = x.state[s];
 		const Jet power(x.power, 0), state[3] = { Jet(own[0], 1), Jet(own[1], 2), Jet(own[2], 3) };
 		const Vec3<Jet> q = PlaneOfState(model, &power, state, Jet(w_mm, 4));
-		const Jet* const rows[] = { &q.x, &q.y, &q.z };
-		for (int r = 0; r < 3; ++r)
+		const std::pair<LensCovariance::Axis, const Jet*> rows[] = { { LensCovariance::Axis::X, &q.x }, { LensCovariance::Axis::Y, &q.y }, { LensCovariance::Axis::Z, &q.z } };
+		for (const auto& [axis, value] : rows)
 		{
-			J(5 + 3 * s + r, 0) = rows[r]->v[4];
-			J(5 + 3 * s + r, 3) = rows[r]->v[0];
-			J.block<1, 3>(5 + 3 * s + r, 6 + 3 * s) = rows[r]->v.segment<3>(1).transpose();
+			const int row = At(s, axis).index;
+			J(row, UnknownIndex::W) = value->v[4];
+			J(row, UnknownIndex::POWER) = value->v[0];
+			J.block<1, 3>(row, UnknownIndex::OfState(s)) = value->v.segment<3>(1).transpose();
 		}
 	}
-	return J;
+	return LensCovariance(J * of_unknowns * J.transpose());
 }
 
 std::vector<Observation> Observe(const Task& task, const Geometry& g)
@@ -121,7 +129,7 @@ std::vector<Observation> Observe(const Task& task, const Geometry& g)
 		for (size_t p = 0; p < task.states[s].photos.size(); ++p)
 			for (const Edge& e : task.states[s].photos[p].edges)
 			{
-				const Vec3<double> P = EdgeInCamera(task, g.poses[s][p], e);
+				const Vec3<double> P = EdgeInCamera(task, g.states[s].poses[p], e);
 				all.push_back({ s, p, P, EdgeGradient(g, s, P, e), e.blur, e.blur_sigma });
 			}
 	return all;
@@ -139,7 +147,7 @@ Vec3<double> BlurFit::Plane(const Unknowns& x, size_t state) const
 	return PlaneOfState(model, &x.power, x.state[state].data(), w_mm);
 }
 
-double BlurFit::Minimise(Unknowns& x, Free free, size_t state) const
+std::optional<double> BlurFit::Minimise(Unknowns& x, Free free, size_t state) const
 {
 	ceres::Problem problem;
 	Build(*this, problem, x, free, state);
@@ -151,7 +159,7 @@ double BlurFit::Minimise(Unknowns& x, Free free, size_t state) const
 	ceres::Solver::Summary summary;
 	ceres::Solve(options, &problem, &summary);
 	x.d = std::abs(x.d);
-	return summary.IsSolutionUsable() ? summary.final_cost : 1e300;
+	return summary.IsSolutionUsable() ? std::optional<double>(summary.final_cost) : std::nullopt;
 }
 
 double BlurFit::Scale(const Unknowns& x) const
@@ -162,7 +170,7 @@ double BlurFit::Scale(const Unknowns& x) const
 	return RobustSigma(std::move(r));
 }
 
-Eigen::MatrixXd BlurFit::CovarianceOfPlanes(Unknowns x, double w_sigma_mm) const
+LensCovariance BlurFit::Covariance(Unknowns x, double w_sigma_mm) const
 {
 	ceres::Problem problem;
 	Build(*this, problem, x, Free::EVERYTHING, 0);
@@ -177,7 +185,7 @@ Eigen::MatrixXd BlurFit::CovarianceOfPlanes(Unknowns x, double w_sigma_mm) const
 		blocks.push_back(state.data());
 	if (!covariance.Compute(blocks, &problem))
 		throw Refused("the blur does not determine the lens: photograph inclined boards whose blur differs clearly from one end to the other");
-	const int n = 5 + 3 * int(x.state.size());
+	const int n = UnknownIndex::OfState(x.state.size()) - 1;   // all but w
 	Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> c(n, n);
 	covariance.GetCovarianceMatrix(blocks, c.data());
 	int free_unknowns = 0;
@@ -185,10 +193,9 @@ Eigen::MatrixXd BlurFit::CovarianceOfPlanes(Unknowns x, double w_sigma_mm) const
 		free_unknowns += c(k, k) > 0;
 	const double freedom = std::max(1, problem.NumResiduals() - free_unknowns);
 	Eigen::MatrixXd with_w = Eigen::MatrixXd::Zero(n + 1, n + 1);
-	with_w(0, 0) = w_sigma_mm * w_sigma_mm;
+	with_w(UnknownIndex::W, UnknownIndex::W) = w_sigma_mm * w_sigma_mm;
 	with_w.bottomRightCorner(n, n) = c * (2 * cost / freedom);
-	const Eigen::MatrixXd J = PlanesByUnknowns(model, x, w_mm);
-	return J * with_w * J.transpose();
+	return CovarianceOfPlanes(model, x, w_mm, with_w);
 }
 
 }

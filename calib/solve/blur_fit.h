@@ -7,10 +7,12 @@
 
 #include <tiltcal/calibration.h>
 #include "model/lens_model.h"
+#include "solve/lens_covariance.h"
 
 #include <Eigen/Core>
 #include <ceres/problem.h>
 
+#include <optional>
 #include <vector>
 
 namespace tiltcal
@@ -48,9 +50,23 @@ enum class Free
 /// Holds what the model does not have, and what the untilted state keeps at 0, of a problem's blocks.
 void HoldUnused(LensModel model, Unknowns& x, ceres::Problem& problem);
 
-/// d(w, d, floor^2, curvature, q of every state) / d(w, d, floor^2, power, curvature, numbers of every state), by
-/// automatic derivatives. w in mm.
-Eigen::MatrixXd PlanesByUnknowns(LensModel model, const Unknowns& x, double w_mm);
+/// Where w and the unknowns stand in the covariance of a fit.
+struct UnknownIndex
+{
+	enum
+	{
+		W,
+		D,
+		FLOOR_SQUARED,
+		POWER,
+		CURVATURE,
+		STATES = CURVATURE + 2
+	};
+	static int OfState(size_t state) { return STATES + 3 * static_cast<int>(state); }
+};
+
+/// From the covariance of w (mm) and the unknowns, in the order of UnknownIndex, by automatic derivatives.
+LensCovariance CovarianceOfPlanes(LensModel model, const Unknowns& x, double w_mm, const Eigen::MatrixXd& of_unknowns);
 
 struct BlurFit
 {
@@ -66,15 +82,14 @@ struct BlurFit
 	Vec3<double> Plane(const Unknowns& x, size_t state) const;
 
 	/// Robust fit from x, in place; `state` counts for ONE_STATE. Returns the final cost (half the
-	/// weighted sum of squares), 1e300 without convergence.
-	double Minimise(Unknowns& x, Free free, size_t state) const;
+	/// weighted sum of squares), none without convergence.
+	std::optional<double> Minimise(Unknowns& x, Free free, size_t state) const;
 
 	/// RobustSigma of the residuals, px.
 	double Scale(const Unknowns& x) const;
 
-	/// Covariance of w, d, floor^2, the two of `curvature` and q of every state, in that order (mm, px), rescaled
-	/// by the residuals. w is held, and has the standard deviation given. Throws Refused when the fit is singular.
-	Eigen::MatrixXd CovarianceOfPlanes(Unknowns x, double w_sigma_mm) const;
+	/// w is held, and has the standard deviation given. Throws Refused when the fit is singular.
+	LensCovariance Covariance(Unknowns x, double w_sigma_mm) const;
 };
 
 }

@@ -38,7 +38,7 @@ class PhotometricCost : public ceres::CostFunction
 {
 public:
 	PhotometricCost(const EdgeModel& e, const Edge& m, const EdgeWeights& weights)
-		: seen(new ceres::AutoDiffCostFunction<EdgeModel, 2, 1, 5, 2, 6, 1, 1, 1, 2, 3, 3, 1>(new EdgeModel(e))), profile(m.profile), box_a(std::abs(m.nx)), box_b(std::abs(m.ny))
+		: seen(new EdgeCostFunction<EdgeModel, 2>(new EdgeModel(e))), profile(m.profile), box_a(std::abs(m.nx)), box_b(std::abs(m.ny))
 	{
 		*mutable_parameter_block_sizes() = seen->parameter_block_sizes();
 		set_num_residuals(static_cast<int>(profile.size()));
@@ -111,7 +111,7 @@ EdgeModel MakeEdgeModel(const Task& task, LensModel model, const Edge& e, const 
 
 ceres::CostFunction* NewEdgeCost(const EdgeModel& edge, double blur_px, const EdgeWeights& weights)
 {
-	return new ceres::AutoDiffCostFunction<EdgeCost, 2, 1, 5, 2, 6, 1, 1, 1, 2, 3, 3, 1>(new EdgeCost{ edge, blur_px, weights });
+	return new EdgeCostFunction<EdgeCost, 2>(new EdgeCost{ edge, blur_px, weights });
 }
 
 ceres::CostFunction* NewPhotometricCost(const EdgeModel& edge, const Edge& measured, const EdgeWeights& weights)

@@ -10,10 +10,27 @@
 #include "model/footprint.h"
 #include "model/lens_model.h"
 
-#include <ceres/cost_function.h>
+#include <ceres/autodiff_cost_function.h>
+
+#include <array>
 
 namespace tiltcal
 {
+
+/// The parameter blocks of one edge, in the order of EdgeCostFunction.
+template<typename T>
+struct EdgeBlocks
+{
+	const T *w_px, *distortion, *principal_point, *pose;
+	const T *d, *floor_squared, *power, *curvature;
+	const T *state;                ///< its numbers (model/lens_model.h)
+	const T *lens_centre;          ///< subtracted from what the pose gives, mm
+	const T *pupil_magnification;
+};
+
+/// A cost function of `Cost` with so many residuals and the blocks of EdgeBlocks.
+template<typename Cost, int Residuals>
+using EdgeCostFunction = ceres::AutoDiffCostFunction<Cost, Residuals, 1, 5, 2, 6, 1, 1, 1, 2, 3, 3, 1>;
 
 /// Where the camera puts an edge and how wide it blurs it.
 struct EdgeModel
@@ -26,29 +43,34 @@ struct EdgeModel
 	Vec3<double> axis;     ///< lens normal about which the distortion acts, unless axis_is_free
 	bool axis_is_free;     ///< it is the normal of the lens whose plane of focus the state has
 
-	/// seen[0]: place along the normal from (u, v); seen[1]: blur width; px. Blocks: w_px 1, distortion 5,
-	/// principal point 2, pose 6, d 1, floor^2 1, power 1, curvature 2, the state's numbers 3, its lens centre 3
-	/// (subtracted from what the pose gives), pupil magnification 1.
+	/// seen[0]: place along the normal from (u, v); seen[1]: blur width; px.
 	template<typename T>
-	bool operator()(const T* w_px, const T* distortion, const T* principal_point, const T* pose,
-		const T* d, const T* floor_squared, const T* power, const T* curvature, const T* state, const T* lens_centre, const T* pupil_magnification, T* seen) const
+	bool See(const EdgeBlocks<T>& b, T* seen) const
 	{
 		using std::sqrt;
-		const Vec3<T> P = CameraFromBoard(pose, X, Y) - Vec3<T>{ lens_centre[0], lens_centre[1], lens_centre[2] };
+		const Vec3<T> P = CameraFromBoard(b.pose, X, Y) - Vec3<T>{ b.lens_centre[0], b.lens_centre[1], b.lens_centre[2] };
 		if (P.z <= T(1e-9))
 			return false;
-		const T w_mm = *w_px * T(pitch_mm);
-		const Vec3<T> q = PlaneOfState(model, power, state, w_mm);
+		const T w_mm = *b.w_px * T(pitch_mm);
+		const Vec3<T> q = PlaneOfState(model, b.power, b.state, w_mm);
 		const Vec3<T> n = tilt_lens::LensFromPlane(q, T(1) / w_mm).normal;
 		const Vec3<T> seen_about = axis_is_free ? n : Lifted<T>(axis);
-		const tilt_lens::LensBasis<T> basis = tilt_lens::BasisOfLensPlane(seen_about);
+		const PictureOf<T> picture{ *b.w_px, b.distortion, b.principal_point, seen_about, tilt_lens::BasisOfLensPlane(seen_about) };
 		T pixel[2];
-		ProjectThroughPupils(*w_px, *pupil_magnification, distortion, principal_point, seen_about, basis, P, pixel);
+		picture.ProjectThroughPupils(*b.pupil_magnification, P, pixel);
 		seen[0] = T(nx) * (pixel[0] - T(u)) + T(ny) * (pixel[1] - T(v));
-		const Vec3<T> G = PixelGradient(*w_px, distortion, seen_about, basis, P, T(nx), T(ny));
+		const Vec3<T> G = picture.Gradient(P, T(nx), T(ny));
 		// The tiny constant keeps the root smooth where blur and floor both vanish.
-		seen[1] = sqrt(SquaredFootprintWidth(*d, q, n, curvature, P, G) + *floor_squared + T(1e-6));
+		seen[1] = sqrt(SquaredFootprintWidth(*b.d, q, n, b.curvature, P, G) + *b.floor_squared + T(1e-6));
 		return true;
+	}
+
+	/// For Ceres: the blocks' pointers one by one, then `seen`.
+	template<typename T, typename... Rest>
+	bool operator()(const T* w_px, Rest... rest) const
+	{
+		const std::array<const T*, 12> all{ w_px, rest... };
+		return See<T>({ all[0], all[1], all[2], all[3], all[4], all[5], all[6], all[7], all[8], all[9], all[10] }, const_cast<T*>(all[11]));
 	}
 };
 

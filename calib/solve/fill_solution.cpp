@@ -17,53 +17,58 @@ namespace tiltcal
 namespace
 {
 
+using Number = LensCovariance::Number;
+
 /// Correlations of w, d, U, C and the components of every tilt, q_x and q_y.
-std::vector<Correlation> CorrelationsOf(const Task& task, LensModel model, const Eigen::MatrixXd& c)
+std::vector<Correlation> CorrelationsOf(const Task& task, LensModel model, const LensCovariance& c)
 {
-	std::vector<std::pair<std::string, int>> numbers{ { "image_distance", 0 }, { "aperture_diameter", 1 }, { "focus_distance", 7 } };
+	using Axis = LensCovariance::Axis;
+	struct Named
+	{
+		std::string name;
+		LensCovariance::At at;
+		double sign;
+	};
+	// 1/U falls when U grows.
+	std::vector<Named> numbers{ { "image_distance", Number::IMAGE_DISTANCE, 1 }, { "aperture_diameter", Number::APERTURE_DIAMETER, 1 }, { "focus_distance", { 0, Axis::Z }, -1 } };
 	if (IsCurved(model))
-		numbers.emplace_back("field_curvature", 3);
+		numbers.push_back({ "field_curvature", Number::CURVATURE, 1 });
 	for (size_t s = 1; s < task.states.size(); ++s)
 	{
-		numbers.emplace_back(task.states[s].name + ".q_x", 5 + 3 * int(s));
-		numbers.emplace_back(task.states[s].name + ".q_y", 6 + 3 * int(s));
+		numbers.push_back({ task.states[s].name + ".q_x", { s, Axis::X }, 1 });
+		numbers.push_back({ task.states[s].name + ".q_y", { s, Axis::Y }, 1 });
 	}
 	std::vector<Correlation> all;
 	for (size_t i = 0; i < numbers.size(); ++i)
 		for (size_t j = i + 1; j < numbers.size(); ++j)
 		{
-			const int a = numbers[i].second, b = numbers[j].second;
-			const double variance = c(a, a) * c(b, b);
-			// 1/U falls when U grows.
-			const double sign = (a == 7) != (b == 7) ? -1 : 1;
+			const Named &a = numbers[i], &b = numbers[j];
+			const double variance = c.Variance(a.at) * c.Variance(b.at);
 			if (variance > 0)
-				all.push_back({ numbers[i].first, numbers[j].first, sign * c(a, b) / std::sqrt(variance) });
+				all.push_back({ a.name, b.name, a.sign * b.sign * c(a.at, b.at) / std::sqrt(variance) });
 		}
 	return all;
 }
 
 }
 
-void FillSolution(const Task& task, const Geometry& g, const BlurFit& fit, const Unknowns& x, const Eigen::MatrixXd& c, Solution& out)
+void FillSolution(const Task& task, const Geometry& g, const BlurFit& fit, const Unknowns& x, const LensCovariance& c, Solution& out)
 {
 	const double w = g.w_px * task.pitch_mm;
 	out.lens = fit.model;
 	out.correlations = CorrelationsOf(task, fit.model, c);
-	out.w_mm = { w, std::sqrt(c(0, 0)) };
-	out.aperture_diameter = { x.d, std::sqrt(c(1, 1)) };
-	const double floor = std::sqrt(x.floor_squared), floor_squared_sigma = std::sqrt(c(2, 2));
+	out.w_mm = { w, c.Sigma(Number::IMAGE_DISTANCE) };
+	out.aperture_diameter = { x.d, c.Sigma(Number::APERTURE_DIAMETER) };
+	const double floor = std::sqrt(x.floor_squared), floor_squared_sigma = c.Sigma(Number::FLOOR_SQUARED);
 	out.psf_floor_px = { floor, floor_squared_sigma / std::max(2 * floor, std::sqrt(floor_squared_sigma)) };
 	const double C = x.curvature[0], half = x.curvature[1];
-	out.field_curvature = { C, std::sqrt(c(3, 3)) };
-	out.tangential_curvature = { C + half, std::sqrt(std::max(c(3, 3) + 2 * c(3, 4) + c(4, 4), 0.0)) };
-	out.sagittal_curvature = { C - half, std::sqrt(std::max(c(3, 3) - 2 * c(3, 4) + c(4, 4), 0.0)) };
+	out.field_curvature = { C, c.Sigma(Number::CURVATURE) };
+	out.tangential_curvature = { C + half, c.SigmaOfSum(Number::CURVATURE, Number::HALF_CURVATURE_DIFFERENCE) };
+	out.sagittal_curvature = { C - half, c.SigmaOfSum(Number::CURVATURE, Number::HALF_CURVATURE_DIFFERENCE, -1) };
 	for (size_t s = 0; s < x.state.size(); ++s)
 	{
-		Eigen::Matrix4d block;   // of (q, w)
-		const int at = 5 + 3 * int(s);
-		block << c.block<3, 3>(at, at), c.block<3, 1>(at, 0), c.block<1, 3>(0, at), c(0, 0);
 		StateLens lens;
-		FillStateLens(fit.Plane(x, s), w, block, lens);
+		FillStateLens(fit.Plane(x, s), w, c.OfPlaneAndImageDistance(s), lens);
 		out.states.push_back(lens);
 	}
 	double total = 0;

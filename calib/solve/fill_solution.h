@@ -10,9 +10,8 @@
 namespace tiltcal
 {
 
-/// The numbers that people read, of a fit's unknowns. `covariance` is that of w, d, floor^2, the two of `curvature`
-/// and q of every state, in that order (BlurFit::CovarianceOfPlanes); w is `geometry`'s.
-void FillSolution(const Task& task, const Geometry& geometry, const BlurFit& fit, const Unknowns& x, const Eigen::MatrixXd& covariance, Solution& out);
+/// The numbers that people read, of a fit's unknowns; w is `geometry`'s.
+void FillSolution(const Task& task, const Geometry& geometry, const BlurFit& fit, const Unknowns& x, const LensCovariance& covariance, Solution& out);
 
 /// Throws Refused where aperture, focus or a tilt are not determined, saying what to photograph.
 void RefuseUndetermined(const Task& task, const Solution& solution);

@@ -42,7 +42,7 @@ HeldOut HoldOut(const BlurFit& fit, const Unknowns& x, double most)
 				(o.state == state && o.photo == photo ? own : others).push_back(o);
 			const BlurFit reduced{ fit.model, others, fit.w_mm, fit.model_sigma, fit.priors };
 			Unknowns y = x;
-			if (reduced.Minimise(y, Free::EVERYTHING, 0) >= 1e300)
+			if (!reduced.Minimise(y, Free::EVERYTHING, 0))
 				return { HUGE_VAL, {} };
 			double squares = 0;
 			for (const Observation& o : own)

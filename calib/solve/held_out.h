@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 //
-// How well a model foretells a photograph that it was not fitted to: the measure by which
+// How well a model predicts a photograph that it was not fitted to: the measure by which
 // models with more unknowns and with fewer can be compared.
 
 #ifndef TILTCAL_HELD_OUT_H
@@ -18,8 +18,8 @@ struct HeldOut
 };
 
 /// Each photograph in turn is left out, the blur is fitted to the others from x on, and its own edges are
-/// foretold: RMS of the differences, px, each counted as no more than `most` (a shadow on one edge is
-/// nobody's fault). Poses and w are held. Photographs that are their state's only one cannot be left out;
+/// predicted: RMS of the differences, px, each counted as no more than `most` (a shadow on one edge must
+/// not decide). Poses and w are held. Photographs that are their state's only one cannot be left out;
 /// 0 when none can.
 HeldOut HoldOut(const BlurFit& fit, const Unknowns& x, double most);
 

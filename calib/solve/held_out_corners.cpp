@@ -2,6 +2,7 @@
 
 #include "solve/held_out_corners.h"
 
+#include "model/predict.h"
 #include <tiltcal/photo.h>
 #include <tiltcal/error.h>
 

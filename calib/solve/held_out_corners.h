@@ -8,7 +8,7 @@
 namespace tiltcal
 {
 
-/// How well a geometry foretells corners that it was not fitted to, px: fitted to every second corner of each
+/// How well a geometry predicts corners that it was not fitted to, px: fitted to every second corner of each
 /// photograph, as on a chessboard of its own, and asked for the others, and the other way round; RMS of both. Corners,
 /// not photographs, because a photograph that is left out has no pose. 0: half of the corners does not determine it.
 double CornersLeftOut(const Task& task, const GeometryOptions& options);

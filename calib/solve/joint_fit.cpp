@@ -21,11 +21,20 @@ namespace
 
 static_assert(sizeof(Vec3<double>) == 3 * sizeof(double), "a block of three numbers");
 
-/// The blocks of one edge, in EdgeModel's order.
-std::vector<double*> Blocks(Geometry& g, Unknowns& x, size_t s, size_t p)
+EdgeBlocks<double> BlocksOf(Geometry& g, Unknowns& x, size_t s, size_t p)
 {
-	return { &g.w_px, g.distortion.data(), g.principal_point[s].data(), PoseOf(g, s, p).data(),
-		&x.d, &x.floor_squared, &x.power, x.curvature.data(), x.state[s].data(), &g.lens_centre[s].x, &g.pupil_magnification };
+	StateGeometry& state = g.states[s];
+	return { &g.w_px, g.distortion.data(), state.principal_point.data(), PoseOf(g, s, p).data(),
+		&x.d, &x.floor_squared, &x.power, x.curvature.data(), x.state[s].data(), &state.lens_centre.x, &g.pupil_magnification };
+}
+
+/// The same for a problem.
+std::vector<double*> Pointers(const EdgeBlocks<double>& b)
+{
+	std::vector<double*> all;
+	for (const double* block : { b.w_px, b.distortion, b.principal_point, b.pose, b.d, b.floor_squared, b.power, b.curvature, b.state, b.lens_centre, b.pupil_magnification })
+		all.push_back(const_cast<double*>(block));
+	return all;
 }
 
 template<typename Each>
@@ -55,20 +64,20 @@ void Build(const JointFit& fit, Geometry& g, Unknowns& x, ceres::Problem& proble
 {
 	ForEachEdge(fit.task, [&](size_t s, size_t p, const Edge& e)
 	{
-		ceres::CostFunction* cost = CostOf(fit, e, g.lens_normal[s]);
+		ceres::CostFunction* cost = CostOf(fit, e, g.states[s].lens_normal);
 		// A block of n standard normal residuals has the norm sqrt(n).
-		problem.AddResidualBlock(cost, new ceres::HuberLoss(2.5 * std::sqrt(double(cost->num_residuals()))), Blocks(g, x, s, p));
+		problem.AddResidualBlock(cost, new ceres::HuberLoss(2.5 * std::sqrt(double(cost->num_residuals()))), Pointers(BlocksOf(g, x, s, p)));
 	});
 	if (!fit.geometry_alone)
-		AddPriors(fit.task.priors, fit.model, &g.w_px, fit.task.pitch_mm, &x.d, &x.power, x.state[0].data(), problem);
+		AddPriors(fit.task.priors, fit.model, { &g.w_px, fit.task.pitch_mm, &x.d, &x.power, x.state[0].data() }, problem);
 	HoldDistortion(g, problem);
 	HoldUnused(fit.model, x, problem);
-	for (size_t s = 0; s < g.principal_point.size(); ++s)
-		if (g.principal_point_fixed[s])
-			problem.SetParameterBlockConstant(g.principal_point[s].data());
-	for (size_t s = 0; s < g.lens_centre.size(); ++s)
+	for (size_t s = 0; s < g.states.size(); ++s)
+		if (g.states[s].principal_point_fixed)
+			problem.SetParameterBlockConstant(g.states[s].principal_point.data());
+	for (size_t s = 0; s < g.states.size(); ++s)
 		if (s == 0 || !g.shared_poses)
-			problem.SetParameterBlockConstant(&g.lens_centre[s].x);
+			problem.SetParameterBlockConstant(&g.states[s].lens_centre.x);
 	if (!fit.geometry_alone || !g.shared_poses)
 		problem.SetParameterBlockConstant(&g.pupil_magnification);
 	if (!fit.geometry_alone)
@@ -86,16 +95,18 @@ void SpreadPoses(Geometry& g)
 {
 	if (!g.shared_poses)
 		return;
-	for (size_t s = 1; s < g.poses.size(); ++s)
-		for (size_t p = 0; p < g.poses[s].size(); ++p)
+	for (size_t s = 1; s < g.states.size(); ++s)
+	{
+		StateGeometry& state = g.states[s];
+		state.poses = g.states[0].poses;
+		state.pose_sigmas = g.states[0].pose_sigmas;
+		for (Pose& pose : state.poses)
 		{
-			Pose& pose = g.poses[s][p] = g.poses[0][p];
-			pose[3] -= g.lens_centre[s].x;
-			pose[4] -= g.lens_centre[s].y;
-			pose[5] -= g.lens_centre[s].z;
-			if (!g.pose_sigmas.empty())
-				g.pose_sigmas[s][p] = g.pose_sigmas[0][p];
+			pose[3] -= state.lens_centre.x;
+			pose[4] -= state.lens_centre.y;
+			pose[5] -= state.lens_centre.z;
 		}
+	}
 }
 
 /// The blocks whose covariance PlanesByUnknowns takes, in its order.
@@ -118,12 +129,13 @@ struct SigmaOf
 std::vector<SigmaOf> GeometryBlocks(Geometry& g)
 {
 	std::vector<SigmaOf> blocks{ { g.distortion.data(), 5, g.distortion_sigma.data() }, { &g.pupil_magnification, 1, &g.pupil_magnification_sigma } };
-	for (size_t s = 0; s < g.poses.size(); ++s)
+	for (size_t s = 0; s < g.states.size(); ++s)
 	{
-		blocks.push_back({ g.principal_point[s].data(), 2, g.principal_point_sigma[s].data() });
-		blocks.push_back({ &g.lens_centre[s].x, 3, &g.lens_centre_sigma[s].x });
-		for (size_t p = 0; p < g.poses[s].size() && (s == 0 || !g.shared_poses); ++p)
-			blocks.push_back({ g.poses[s][p].data(), 6, g.pose_sigmas[s][p].data() });
+		StateGeometry& state = g.states[s];
+		blocks.push_back({ state.principal_point.data(), 2, state.principal_point_sigma.data() });
+		blocks.push_back({ &state.lens_centre.x, 3, &state.lens_centre_sigma.x });
+		for (size_t p = 0; p < state.poses.size() && (s == 0 || !g.shared_poses); ++p)
+			blocks.push_back({ state.poses[p].data(), 6, state.pose_sigmas[p].data() });
 	}
 	return blocks;
 }
@@ -188,9 +200,8 @@ std::vector<std::array<double, 2>> JointFit::Residuals(const Geometry& geometry,
 	std::vector<std::array<double, 2>> all;
 	ForEachEdge(task, [&](size_t s, size_t p, const Edge& e)
 	{
-		const std::vector<double*> b = Blocks(g, y, s, p);
 		double seen[2] = { 1e9, 1e9 };
-		MakeEdgeModel(task, model, e, g.lens_normal[s], geometry_alone)(b[0], b[1], b[2], b[3], b[4], b[5], b[6], b[7], b[8], b[9], b[10], seen);
+		MakeEdgeModel(task, model, e, g.states[s].lens_normal, geometry_alone).See(BlocksOf(g, y, s, p), seen);
 		all.push_back({ seen[0], seen[1] - e.blur });
 	});
 	return all;
@@ -213,7 +224,7 @@ bool JointFit::Minimise(Geometry& g, Unknowns& x) const
 	return summary.IsSolutionUsable();
 }
 
-bool JointFit::Covariance(Geometry& g, Unknowns& x, Eigen::MatrixXd& out) const
+std::optional<LensCovariance> JointFit::Covariance(Geometry& g, Unknowns& x) const
 {
 	// Of the edges also where their brightness was fitted: what the model leaves out of a profile is common to all
 	// its bins, and would make the sigmas too small by the root of their number.
@@ -225,17 +236,16 @@ bool JointFit::Covariance(Geometry& g, Unknowns& x, Eigen::MatrixXd& out) const
 	const std::vector<const double*> lens = LensBlocks(g, x);
 	const std::vector<SigmaOf> geometry = GeometryBlocks(g);
 	if (!covariance.Compute(lens, geometry))
-		return false;
+		return std::nullopt;
 
 	double cost = 0;
 	problem.Evaluate(ceres::Problem::EvaluateOptions(), &cost, nullptr, nullptr, nullptr);
 	const double scale = 2 * cost / std::max(problem.NumResiduals() - problem.NumParameters(), 1);
 	Eigen::MatrixXd c = scale * covariance.Of(lens);
-	g.w_px_sigma = std::sqrt(c(0, 0));
-	c.row(0) *= task.pitch_mm;
-	c.col(0) *= task.pitch_mm;
-	const Eigen::MatrixXd J = PlanesByUnknowns(model, x, g.w_px * task.pitch_mm);
-	out = J * c * J.transpose();
+	const int w = UnknownIndex::W;
+	g.w_px_sigma = std::sqrt(c(w, w));
+	c.row(w) *= task.pitch_mm;
+	c.col(w) *= task.pitch_mm;
 	for (const SigmaOf& wanted : geometry)
 	{
 		const Eigen::MatrixXd own = scale * covariance.Of(wanted.block, wanted.block);
@@ -243,7 +253,7 @@ bool JointFit::Covariance(Geometry& g, Unknowns& x, Eigen::MatrixXd& out) const
 			wanted.sigma[i] = std::sqrt(std::max(own(i, i), 0.0));
 	}
 	SpreadPoses(g);
-	return true;
+	return CovarianceOfPlanes(model, x, g.w_px * task.pitch_mm, c);
 }
 
 }

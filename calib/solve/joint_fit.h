@@ -9,18 +9,14 @@
 
 #include "solve/blur_fit.h"
 
+#include <tiltcal/calibrate.h>
+
 #include <Eigen/Core>
+
+#include <optional>
 
 namespace tiltcal
 {
-
-/// What the refinement compares.
-enum class Refinement
-{
-	NONE,         ///< nothing: geometry first, then blur with the geometry held
-	EDGES,        ///< place and blur width of every edge
-	PHOTOMETRIC   ///< the brightness across every edge
-};
 
 /// What the model leaves out, common to all edges, px: robust standard deviations of the residuals.
 struct ModelError
@@ -45,8 +41,8 @@ struct JointFit
 	/// Robust fit of both in place. False: no convergence.
 	bool Minimise(Geometry& geometry, Unknowns& x) const;
 
-	/// As BlurFit's, but of everything free; also fills the sigmas of `geometry`. False: singular.
-	bool Covariance(Geometry& geometry, Unknowns& x, Eigen::MatrixXd& covariance) const;
+	/// As BlurFit's, but of everything free; also fills the sigmas of `geometry`. None: singular.
+	std::optional<LensCovariance> Covariance(Geometry& geometry, Unknowns& x) const;
 };
 
 }

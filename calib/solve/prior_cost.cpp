@@ -7,10 +7,11 @@
 namespace tiltcal
 {
 
-void AddPriors(const std::vector<Prior>& priors, LensModel model, double* w, double mm_per_unit, double* d, double* power, double* untilted_state, ceres::Problem& problem)
+void AddPriors(const std::vector<Prior>& priors, LensModel model, const PriorBlocks& blocks, ceres::Problem& problem)
 {
 	for (const Prior& prior : priors)
-		problem.AddResidualBlock(new ceres::AutoDiffCostFunction<PriorCost, 1, 1, 1, 1, 3>(new PriorCost{ prior, model, mm_per_unit }), nullptr, w, d, power, untilted_state);
+		problem.AddResidualBlock(new ceres::AutoDiffCostFunction<PriorCost, 1, 1, 1, 1, 3>(new PriorCost{ prior, model, blocks.mm_per_unit }), nullptr,
+			blocks.w, blocks.d, blocks.power, blocks.untilted_state);
 }
 
 }

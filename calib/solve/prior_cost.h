@@ -47,8 +47,16 @@ struct PriorCost
 	}
 };
 
-/// Adds the priors to a problem that has these blocks; w in units of mm_per_unit mm.
-void AddPriors(const std::vector<Prior>& priors, LensModel model, double* w, double mm_per_unit, double* d, double* power, double* untilted_state, ceres::Problem& problem);
+/// The blocks of a problem that priors speak of.
+struct PriorBlocks
+{
+	double* w;             ///< in units of mm_per_unit mm
+	double mm_per_unit;
+	double *d, *power, *untilted_state;
+};
+
+/// Adds the priors to a problem that has these blocks.
+void AddPriors(const std::vector<Prior>& priors, LensModel model, const PriorBlocks& blocks, ceres::Problem& problem);
 
 }
 

@@ -2,6 +2,7 @@
 
 #include "solve/search_focus.h"
 
+#include "lens/angles.h"
 #include "model/lens_model.h"
 #include "model/projection.h"
 #include <tiltcal/error.h>
@@ -31,8 +32,20 @@ const double SAME_COST = 20;
 
 double DifferenceOf(const Vec3<double>& a, const Vec3<double>& b) { return Length(a - b) / Length(b); }
 
-void SortByCost(std::vector<Candidate>& candidates)
+/// Adds a candidate, where its fit converged.
+void Keep(Candidate& candidate, const std::optional<double>& cost, std::vector<Candidate>& candidates)
 {
+	if (!cost)
+		return;
+	candidate.cost = *cost;
+	candidates.push_back(candidate);
+}
+
+/// Throws Refused where there is none.
+void SortByCost(std::vector<Candidate>& candidates, const std::string& state)
+{
+	if (candidates.empty())
+		throw Refused(fmt::format("state {}: the blur fit did not converge", state));
 	std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
 }
 
@@ -76,7 +89,7 @@ Unknowns Choose(const BlurFit& fit, const std::vector<Candidate>& candidates, si
 std::vector<Vec3<double>> BoardPlanes(const Geometry& g, size_t state)
 {
 	std::vector<Vec3<double>> planes;
-	for (const Pose& pose : g.poses[state])
+	for (const Pose& pose : g.states[state].poses)
 	{
 		const Vec3<double> o = CameraFromBoard(pose.data(), 0, 0), x = CameraFromBoard(pose.data(), 1, 0), y = CameraFromBoard(pose.data(), 0, 1);
 		planes.push_back(tilt_lens::PlaneThroughPoint(Cross(x - o, y - o), o));
@@ -96,7 +109,7 @@ std::vector<Candidate> Starts(const BlurFit& fit, const Unknowns& x, size_t stat
 			for (int direction = 0; direction < (slope > 0 ? 12 : 1); ++direction)
 			{
 				Candidate c{ x, 0 };
-				const auto m = tilt_lens::FocalPlaneDirection(std::atan(slope), direction * 3.14159265358979 / 6);
+				const auto m = tilt_lens::FocalPlaneDirection(std::atan(slope), direction * tilt_lens::PI / 6);
 				c.x.state[state] = StateOfPlane(fit.model, tilt_lens::PlaneAtDistance(m, k * distance), fit.w_mm);
 				size_t n = 0;
 				for (const Observation& o : fit.observations)
@@ -104,7 +117,7 @@ std::vector<Candidate> Starts(const BlurFit& fit, const Unknowns& x, size_t stat
 						c.cost += std::min(std::abs(fit.Residual(o, c.x)), 20.0);
 				starts.push_back(c);
 			}
-	SortByCost(starts);
+	SortByCost(starts, "");
 	starts.resize(std::min<size_t>(starts.size(), 12));
 	return starts;
 }
@@ -124,10 +137,9 @@ void SearchUntilted(const BlurFit& fit, const Task& task, const Geometry& geomet
 		c.x.d = guess.diameter;
 		c.x.power = guess.inverse_focus + 1 / fit.w_mm;
 		c.x.state[0] = StateOfPlane(fit.model, { 0, 0, guess.inverse_focus }, fit.w_mm);
-		c.cost = fit.Minimise(c.x, Free::UNTILTED, 0);
-		candidates.push_back(c);
+		Keep(c, fit.Minimise(c.x, Free::UNTILTED, 0), candidates);
 	}
-	SortByCost(candidates);
+	SortByCost(candidates, task.states[0].name);
 	if (Rival(fit, candidates, 0))
 		throw Refused(fmt::format("state {}: the blur fits two focus distances equally well. "
 			"Photograph boards that lie partly before and partly behind the plane of focus", task.states[0].name));
@@ -136,21 +148,21 @@ void SearchUntilted(const BlurFit& fit, const Task& task, const Geometry& geomet
 
 bool SearchTilted(const BlurFit& fit, const Task& task, const Geometry& geometry, size_t state, Unknowns& x)
 {
-	std::vector<Candidate> candidates = Starts(fit, x, state);
-	for (Candidate& c : candidates)
-		c.cost = fit.Minimise(c.x, Free::ONE_STATE, state);
-	SortByCost(candidates);
+	std::vector<Candidate> candidates;
+	for (Candidate& c : Starts(fit, x, state))
+		Keep(c, fit.Minimise(c.x, Free::ONE_STATE, state), candidates);
+	const std::string& name = task.states[state].name;
+	SortByCost(candidates, name);
 	const Vec3<double> found = fit.Plane(candidates.front().x, state);
 	for (const Vec3<double>& board : BoardPlanes(geometry, state))
 	{
 		Candidate mirrored = candidates.front();
 		mirrored.x.state[state] = StateOfPlane(fit.model, 2.0 * board - found, fit.w_mm);
-		mirrored.cost = fit.Minimise(mirrored.x, Free::ONE_STATE, state);
-		candidates.push_back(mirrored);
+		Keep(mirrored, fit.Minimise(mirrored.x, Free::ONE_STATE, state), candidates);
 	}
-	SortByCost(candidates);
+	SortByCost(candidates, name);
 	bool by_power = false;
-	x = Choose(fit, candidates, state, task.states[state].name, by_power);
+	x = Choose(fit, candidates, state, name, by_power);
 	return by_power;
 }
 

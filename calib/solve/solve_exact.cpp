@@ -20,7 +20,7 @@ namespace tiltcal
 namespace
 {
 
-/// A model with more unknowns must foretell photographs better by 1 %: by chance alone a bowl does by some thousandths.
+/// A model with more unknowns must predict photographs better by 1 %: by chance alone a bowl does by some thousandths.
 const double WORTH_IT = 0.99;
 
 void RefuseTooFewEdges(const Task& task, const std::vector<Observation>& observations)
@@ -31,7 +31,7 @@ void RefuseTooFewEdges(const Task& task, const std::vector<Observation>& observa
 	for (size_t s = 0; s < count.size(); ++s)
 		if (count[s] < 20)
 			throw Refused(fmt::format("state {}: only {} edges could be measured, 20 are needed: "
-				"use a smaller blur, a larger picture of the board, more photographs, or more --edges-per-photo", task.states[s].name, count[s]));
+				"use a smaller blur, a larger picture of the board, more photographs, or more `edges_per_photo`", task.states[s].name, count[s]));
 }
 
 /// The edges, and a fit of them; `by_power` per state (search_focus.h).
@@ -49,7 +49,7 @@ void Refine(LensModel model, const Task& task, double w_mm, Fitted& f)
 	BlurFit fit{ model, f.observations, w_mm, f.model_sigma, task.priors };
 	for (int round = 0; round < 3; ++round)
 	{
-		if (fit.Minimise(f.x, Free::EVERYTHING, 0) >= 1e300)
+		if (!fit.Minimise(f.x, Free::EVERYTHING, 0))
 			throw Refused("the blur fit did not converge");
 		fit.model_sigma = std::max(fit.Scale(f.x), 0.01);
 	}
@@ -73,12 +73,12 @@ Fitted FitFromNothing(LensModel model, const Task& task, const Geometry& geometr
 	return f;
 }
 
-Solution SolutionOf(LensModel model, const char* name, const Task& task, const Geometry& geometry, const Fitted& f)
+Solution SolutionOf(LensModel model, Model name, const Task& task, const Geometry& geometry, const Fitted& f)
 {
 	const BlurFit fit{ model, f.observations, geometry.w_px * task.pitch_mm, f.model_sigma, task.priors };
 	Solution solution;
 	solution.model = name;
-	FillSolution(task, geometry, fit, f.x, fit.CovarianceOfPlanes(f.x, geometry.w_px_sigma * task.pitch_mm), solution);
+	FillSolution(task, geometry, fit, f.x, fit.Covariance(f.x, geometry.w_px_sigma * task.pitch_mm), solution);
 	for (size_t s = 0; s < f.by_power.size(); ++s)
 		solution.states[s].chosen_by_power = f.by_power[s];
 	RefuseUndetermined(task, solution);
@@ -96,7 +96,7 @@ void Keep(const HeldOut& held_out, Solution& solution)
 	solution.left_out = held_out.photos;
 }
 
-/// The bowl, or the two of an astigmatic lens where that foretells photographs better. `plane`: where to start.
+/// The bowl, or the two of an astigmatic lens where that predicts photographs better. `plane`: where to start.
 Solution Curve(const Task& task, const Geometry& geometry, const Fitted& plane, double most)
 {
 	const double w_mm = geometry.w_px * task.pitch_mm;
@@ -106,7 +106,7 @@ Solution Curve(const Task& task, const Geometry& geometry, const Fitted& plane, 
 	Refine(LensModel::BOWLS, task, w_mm, two);
 	const HeldOut of_one = LeaveOut(LensModel::BOWL, task, geometry, one, most), of_two = LeaveOut(LensModel::BOWLS, task, geometry, two, most);
 	const bool apart = of_two.rms < WORTH_IT * of_one.rms;
-	Solution solution = apart ? SolutionOf(LensModel::BOWLS, "curved", task, geometry, two) : SolutionOf(LensModel::BOWL, "curved", task, geometry, one);
+	Solution solution = apart ? SolutionOf(LensModel::BOWLS, Model::CURVED, task, geometry, two) : SolutionOf(LensModel::BOWL, Model::CURVED, task, geometry, one);
 	Keep(apart ? of_two : of_one, solution);
 	return solution;
 }
@@ -118,12 +118,12 @@ double MostOf(const Fitted& plane) { return 5 * plane.model_sigma; }
 
 Solution SolvePlane(const Task& task, const Geometry& geometry)
 {
-	return SolutionOf(LensModel::PLANE, "plane", task, geometry, FitFromNothing(LensModel::PLANE, task, geometry));
+	return SolutionOf(LensModel::PLANE, Model::PLANE, task, geometry, FitFromNothing(LensModel::PLANE, task, geometry));
 }
 
 Solution SolveRigid(const Task& task, const Geometry& geometry)
 {
-	return SolutionOf(LensModel::RIGID, "rigid", task, geometry, FitFromNothing(LensModel::RIGID, task, geometry));
+	return SolutionOf(LensModel::RIGID, Model::RIGID, task, geometry, FitFromNothing(LensModel::RIGID, task, geometry));
 }
 
 Solution SolveCurved(const Task& task, const Geometry& geometry)
@@ -132,36 +132,37 @@ Solution SolveCurved(const Task& task, const Geometry& geometry)
 	return Curve(task, geometry, plane, MostOf(plane));
 }
 
-std::vector<Solution> CompareExact(const Task& task, const Geometry& geometry)
+ModelComparison CompareExact(const Task& task, const Geometry& geometry)
 {
 	const Fitted plane = FitFromNothing(LensModel::PLANE, task, geometry);
 	const double most = MostOf(plane);
-	std::vector<Solution> all;
-	const auto add = [&](const char* model, auto solve)
+	const auto or_failure = [](Model model, auto solve)
 	{
 		try
 		{
-			all.push_back(solve());
+			return solve();
 		}
 		catch (const Error& e)
 		{
 			if (e.Code() != EXIT_REFUSED)
 				throw;
-			all.emplace_back();
-			all.back().model = model;
-			all.back().failure = e.what();
+			Solution none;
+			none.model = model;
+			none.failure = e.what();
+			return none;
 		}
 	};
-	add("rigid", [&]
+	ModelComparison all;
+	all.rigid = or_failure(Model::RIGID, [&]
 	{
 		const Fitted rigid = FitFromNothing(LensModel::RIGID, task, geometry);
-		Solution s = SolutionOf(LensModel::RIGID, "rigid", task, geometry, rigid);
+		Solution s = SolutionOf(LensModel::RIGID, Model::RIGID, task, geometry, rigid);
 		Keep(LeaveOut(LensModel::RIGID, task, geometry, rigid, most), s);
 		return s;
 	});
-	all.push_back(SolutionOf(LensModel::PLANE, "plane", task, geometry, plane));
-	Keep(LeaveOut(LensModel::PLANE, task, geometry, plane, most), all.back());
-	add("curved", [&] { return Curve(task, geometry, plane, most); });
+	all.plane = SolutionOf(LensModel::PLANE, Model::PLANE, task, geometry, plane);
+	Keep(LeaveOut(LensModel::PLANE, task, geometry, plane, most), all.plane);
+	all.curved = or_failure(Model::CURVED, [&] { return Curve(task, geometry, plane, most); });
 	return all;
 }
 

@@ -2,6 +2,8 @@
 
 #include "solve/solve_geometry.h"
 
+#include "model/predict.h"
+
 #include "model/projection.h"
 #include <tiltcal/error.h>
 #include "base/robust.h"
@@ -34,7 +36,7 @@ struct ReprojectionCost
 		if (P.z <= T(1e-9))
 			return false;
 		T pixel[2];
-		Project(*w_px, distortion, principal_point, normal, P, pixel);
+		MakePicture(*w_px, distortion, principal_point, normal).Project(P, pixel);
 		residual[0] = weight * (pixel[0] - u);
 		residual[1] = weight * (pixel[1] - v);
 		return true;
@@ -98,10 +100,10 @@ void Initialise(const Task& task, Geometry& g)
 	size_t k = 0;
 	for (const State& state : task.states)
 	{
-		g.principal_point.push_back({ K.at<double>(0, 2), K.at<double>(1, 2) });
-		g.poses.emplace_back();
+		StateGeometry& own = g.states[size_t(&state - task.states.data())];
+		own.principal_point = { K.at<double>(0, 2), K.at<double>(1, 2) };
 		for (size_t i = 0; i < state.photos.size(); ++i, ++k)
-			g.poses.back().push_back(FromOpenCv(rvecs[k], tvecs[k]));
+			own.poses.push_back(FromOpenCv(rvecs[k], tvecs[k]));
 	}
 }
 
@@ -116,10 +118,10 @@ void Build(const Task& task, Geometry& g, double model_sigma, ceres::Problem& pr
 			{
 				const double weight = 1 / std::hypot(c.sigma, model_sigma);
 				auto* cost = new ceres::AutoDiffCostFunction<ReprojectionCost, 2, 1, 5, 2, 6>(
-					new ReprojectionCost{ task.board.X(c.column), task.board.Y(c.row), c.x, c.y, weight, g.lens_normal[s] });
+					new ReprojectionCost{ task.board.X(c.column), task.board.Y(c.row), c.x, c.y, weight, g.states[s].lens_normal });
 				// Far out, because the model error is not noise: only a corner under a reflection
 				// or one taken for another must not bend the camera.
-				problem.AddResidualBlock(cost, new ceres::HuberLoss(8.0), &g.w_px, g.distortion.data(), g.principal_point[s].data(), PoseOf(g, s, p).data());
+				problem.AddResidualBlock(cost, new ceres::HuberLoss(8.0), &g.w_px, g.distortion.data(), g.states[s].principal_point.data(), PoseOf(g, s, p).data());
 			}
 }
 
@@ -150,11 +152,11 @@ bool Sigmas(ceres::Problem& problem, Geometry& g)
 	const auto want = [&](const double* block) { if (!problem.IsParameterBlockConstant(block)) blocks.emplace_back(block, block); };
 	want(&g.w_px);
 	want(g.distortion.data());
-	for (size_t s = 0; s < g.poses.size(); ++s)
+	for (size_t s = 0; s < g.states.size(); ++s)
 	{
-		want(g.principal_point[s].data());
+		want(g.states[s].principal_point.data());
 		if (s == 0 || !g.shared_poses)
-			for (const Pose& pose : g.poses[s])
+			for (const Pose& pose : g.states[s].poses)
 				want(pose.data());
 	}
 	if (!covariance.Compute(blocks, &problem))
@@ -174,13 +176,13 @@ bool Sigmas(ceres::Problem& problem, Geometry& g)
 	};
 	get(&g.w_px, &g.w_px_sigma, 1);
 	get(g.distortion.data(), g.distortion_sigma.data(), 5);
-	g.principal_point_sigma.resize(g.principal_point.size());
-	g.pose_sigmas = g.poses;
-	for (size_t s = 0; s < g.poses.size(); ++s)
+	for (size_t s = 0; s < g.states.size(); ++s)
 	{
-		get(g.principal_point[s].data(), g.principal_point_sigma[s].data(), 2);
-		for (size_t p = 0; p < g.poses[s].size(); ++p)
-			get(PoseOf(g, s, p).data(), g.pose_sigmas[s][p].data(), 6);
+		StateGeometry& state = g.states[s];
+		get(state.principal_point.data(), state.principal_point_sigma.data(), 2);
+		state.pose_sigmas = state.poses;
+		for (size_t p = 0; p < g.states[s].poses.size(); ++p)
+			get(PoseOf(g, s, p).data(), g.states[s].pose_sigmas[p].data(), 6);
 	}
 	return true;
 }
@@ -204,17 +206,17 @@ double ModelSigma(const Task& task, const Geometry& g)
 bool FixLoosePrincipalPoints(const Task& task, Geometry& g, ceres::Problem& problem, bool solved)
 {
 	bool any = false;
-	for (size_t s = 0; s < g.principal_point.size(); ++s)
+	for (size_t s = 0; s < g.states.size(); ++s)
 	{
-		double* block = g.principal_point[s].data();
+		double* block = g.states[s].principal_point.data();
 		// Two unknowns of the plane's homography are left for the sensor, per photo; three are wanted.
-		const bool loose = solved ? std::max(g.principal_point_sigma[s][0], g.principal_point_sigma[s][1]) > 0.02 * task.width
+		const bool loose = solved ? std::max(g.states[s].principal_point_sigma[0], g.states[s].principal_point_sigma[1]) > 0.02 * task.width
 			: task.states[s].photos.size() < 2 && (s == 0 || !g.shared_poses);
 		if (!loose || problem.IsParameterBlockConstant(block))
 			continue;
-		g.principal_point[s] = { 0.5 * (task.width - 1), 0.5 * (task.height - 1) };
+		g.states[s].principal_point = { 0.5 * (task.width - 1), 0.5 * (task.height - 1) };
 		problem.SetParameterBlockConstant(block);
-		g.principal_point_fixed[s] = true;
+		g.states[s].principal_point_fixed = true;
 		any = true;
 	}
 	return any;
@@ -226,9 +228,9 @@ bool Fit(const Task& task, double model_sigma, Geometry& g)
 	ceres::Problem problem;
 	Build(task, g, model_sigma, problem);
 	HoldDistortion(g, problem);
-	for (size_t s = 0; s < g.principal_point.size(); ++s)
-		if (g.principal_point_fixed[s])
-			problem.SetParameterBlockConstant(g.principal_point[s].data());
+	for (size_t s = 0; s < g.states.size(); ++s)
+		if (g.states[s].principal_point_fixed)
+			problem.SetParameterBlockConstant(g.states[s].principal_point.data());
 	FixLoosePrincipalPoints(task, g, problem, false);
 	Solve(problem);
 	bool regular = Sigmas(problem, g);
@@ -238,7 +240,8 @@ bool Fit(const Task& task, double model_sigma, Geometry& g)
 		regular = Sigmas(problem, g);
 	}
 	if (g.shared_poses)
-		std::fill(g.poses.begin() + 1, g.poses.end(), g.poses[0]);
+		for (size_t s = 1; s < g.states.size(); ++s)
+			g.states[s].poses = g.states[0].poses;
 	return regular;
 }
 
@@ -251,6 +254,14 @@ bool IsDistorted(const Geometry& g)
 	return false;
 }
 
+}
+
+std::vector<Vec3<double>> LensNormals(const Geometry& g)
+{
+	std::vector<Vec3<double>> normals;
+	for (const StateGeometry& state : g.states)
+		normals.push_back(state.lens_normal);
+	return normals;
 }
 
 void HoldDistortion(Geometry& g, ceres::Problem& problem)
@@ -266,27 +277,13 @@ void HoldDistortion(Geometry& g, ceres::Problem& problem)
 	}
 }
 
-Point Reproject(const Task& task, const Geometry& g, size_t state, size_t photo, double column, double row)
-{
-	const Vec3<double> P = CameraFromBoard(g.poses[state][photo].data(), task.board.X(column), task.board.Y(row));
-	Point pixel;
-	Project(g.w_px, g.distortion.data(), g.principal_point[state].data(), g.lens_normal[state], P, pixel.data());
-	return pixel;
-}
-
-Vec3<double> EdgeInCamera(const Task& task, const Pose& pose, const Edge& edge)
-{
-	return CameraFromBoard(pose.data(), task.board.X(edge.board_column), task.board.Y(edge.board_row));
-}
-
 void MeasureReprojection(const Task& task, Geometry& g)
 {
 	double total = 0;
 	size_t count = 0;
-	g.photo_rms.clear();
 	for (size_t s = 0; s < task.states.size(); ++s)
 	{
-		g.photo_rms.emplace_back();
+		g.states[s].photo_rms.clear();
 		for (size_t p = 0; p < task.states[s].photos.size(); ++p)
 		{
 			double sum = 0;
@@ -296,7 +293,7 @@ void MeasureReprojection(const Task& task, Geometry& g)
 				sum += (at[0] - c.x) * (at[0] - c.x) + (at[1] - c.y) * (at[1] - c.y);
 			}
 			const size_t n = task.states[s].photos[p].corners.size();
-			g.photo_rms.back().push_back(std::sqrt(sum / double(n)));
+			g.states[s].photo_rms.push_back(std::sqrt(sum / double(n)));
 			total += sum;
 			count += n;
 		}
@@ -309,11 +306,9 @@ Geometry SolveGeometry(const Task& task, const GeometryOptions& options)
 	Geometry g;
 	g.distortion_terms = options.terms;
 	g.shared_poses = options.shared_poses;
-	g.lens_normal = options.lens_normal;
-	g.lens_normal.resize(task.states.size(), Vec3<double>{ 0, 0, 1 });
-	g.lens_centre.assign(task.states.size(), Vec3<double>{ 0, 0, 0 });
-	g.lens_centre_sigma = g.lens_centre;
-	g.principal_point_fixed.assign(task.states.size(), false);
+	g.states.resize(task.states.size());
+	for (size_t s = 0; s < options.lens_normal.size(); ++s)
+		g.states[s].lens_normal = options.lens_normal[s];
 	Initialise(task, g);
 	bool regular = Fit(task, FIRST_MODEL_SIGMA, g);
 	if (regular)

@@ -38,20 +38,17 @@ Geometry SolveGeometry(const Task& task, const GeometryOptions& options);
 /// `options.terms` is not used.
 Geometry SelectGeometry(const Task& task, GeometryOptions options);
 
+/// Of every state.
+std::vector<Vec3<double>> LensNormals(const Geometry& geometry);
+
 /// The block that holds a photograph's pose.
-inline Pose& PoseOf(Geometry& g, size_t state, size_t photo) { return g.poses[g.shared_poses ? 0 : state][photo]; }
+inline Pose& PoseOf(Geometry& g, size_t state, size_t photo) { return g.states[g.shared_poses ? 0 : state].poses[photo]; }
 
 /// Keeps at 0 what the distortion model does not contain.
 void HoldDistortion(Geometry& geometry, ceres::Problem& problem);
 
 /// Fills photo_rms and rms.
 void MeasureReprojection(const Task& task, Geometry& geometry);
-
-/// Pixel where the geometry puts board point (column, row), in squares.
-Point Reproject(const Task& task, const Geometry& geometry, size_t state, size_t photo, double column, double row);
-
-/// The measured edge's place in camera coordinates, mm.
-Vec3<double> EdgeInCamera(const Task& task, const Pose& pose, const Edge& edge);
 
 }
 

@@ -46,7 +46,7 @@ void SetNormals(const JointFit& fit, const Unknowns& x, Geometry& g)
 {
 	const double w_mm = g.w_px * fit.task.pitch_mm;
 	for (size_t s = 0; s < x.state.size(); ++s)
-		g.lens_normal[s] = tilt_lens::LensFromPlane(PlaneOfState(fit.model, &x.power, x.state[s].data(), w_mm), 1 / w_mm).normal;
+		g.states[s].lens_normal = tilt_lens::LensFromPlane(PlaneOfState(fit.model, &x.power, x.state[s].data(), w_mm), 1 / w_mm).normal;
 }
 
 }
@@ -64,8 +64,8 @@ bool RefineJointly(const Task& task, Refinement kind, Geometry& geometry, Soluti
 		SetNormals(fit, x, g);
 	}
 	fit.error = ErrorOf(fit.Residuals(g, x));
-	Eigen::MatrixXd covariance;
-	if (!fit.Covariance(g, x, covariance))
+	const std::optional<LensCovariance> covariance = fit.Covariance(g, x);
+	if (!covariance)
 		return false;
 	MeasureReprojection(task, g);
 	Solution refined;
@@ -73,7 +73,7 @@ bool RefineJointly(const Task& task, Refinement kind, Geometry& geometry, Soluti
 	refined.held_out_px = solution.held_out_px;
 	refined.left_out = solution.left_out;
 	const std::vector<Observation> observations = Observe(task, g);
-	FillSolution(task, g, { solution.lens, observations, g.w_px * task.pitch_mm, fit.error.blur, task.priors }, x, covariance, refined);
+	FillSolution(task, g, { solution.lens, observations, g.w_px * task.pitch_mm, fit.error.blur, task.priors }, x, *covariance, refined);
 	for (size_t s = 0; s < refined.states.size(); ++s)
 		refined.states[s].chosen_by_power = solution.states[s].chosen_by_power;
 	geometry = g;
@@ -94,12 +94,12 @@ GeometryAlone TiltFromGeometryAlone(const Task& task, const Geometry& geometry, 
 		if (!fit.Minimise(g, x))
 			return {};
 	}
-	Eigen::MatrixXd covariance;
-	if (!fit.Covariance(g, x, covariance))
+	const std::optional<LensCovariance> covariance = fit.Covariance(g, x);
+	if (!covariance)
 		return {};
 	Solution alone;
 	const std::vector<Observation> observations = Observe(task, g);
-	FillSolution(task, g, { solution.lens, observations, g.w_px * task.pitch_mm, fit.error.blur, task.priors }, x, covariance, alone);
+	FillSolution(task, g, { solution.lens, observations, g.w_px * task.pitch_mm, fit.error.blur, task.priors }, x, *covariance, alone);
 	return { alone.states, { g.pupil_magnification, g.pupil_magnification_sigma } };
 }
 

@@ -30,7 +30,7 @@ Solution SolveRigid(const Task& task, const Geometry& geometry);
 
 /// SolvePlane, and the field curvature C common to all states (tilt_lens/field_curvature.h): the
 /// plane q.P = 1 touches the bowl on the lens axis, so that its tilt is the lens's. One curvature, or a
-/// tangential and a sagittal one where that foretells photographs left out better; C is then
+/// tangential and a sagittal one where that predicts photographs left out better; C is then
 /// their mean. Fills held_out_px.
 /// A bowl seen in one part only looks like a tilted plane: without photographs on both sides of the axis
 /// or without untilted ones the two are told apart badly, and sigma says so.
@@ -38,9 +38,9 @@ Solution SolveCurved(const Task& task, const Geometry& geometry);
 
 /// rigid, plane and curved with their held_out_px. Refusals of rigid and curved are their `failure`;
 /// throws Refused where plane has no answer.
-std::vector<Solution> CompareExact(const Task& task, const Geometry& geometry);
+ModelComparison CompareExact(const Task& task, const Geometry& geometry);
 
-/// Whether `curved` is to be preferred to `plane`: C is 2 sigma from 0 and photographs left out are foretold better, by 1 %.
+/// Whether `curved` is to be preferred to `plane`: C is 2 sigma from 0 and photographs left out are predicted better, by 1 %.
 bool CurvatureIsSeen(const Solution& plane, const Solution& curved);
 
 /// The paper's model, printed equations (3), (4) and (1): stage 1 over all untilted

@@ -2,6 +2,7 @@
 
 #include "solve/solve_lens.h"
 
+#include "lens/angles.h"
 #include "model/projection.h"
 #include <tiltcal/photo.h>
 #include <tiltcal/error.h>
@@ -14,6 +15,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 namespace tiltcal
 {
@@ -89,7 +92,7 @@ struct StageOne
 {
 	double w_px, U, d;
 	std::vector<Pose> poses;
-	double w_sigma = 0, U_sigma = 0, d_sigma = 0, cost = 1e300;
+	double w_sigma = 0, U_sigma = 0, d_sigma = 0, cost = 0;
 };
 
 ceres::Solver::Options Options()
@@ -134,11 +137,11 @@ void StageOneSigmas(const std::vector<Feature>& features, StageOne& s)
 /// The starting poses moved so that the principal point is the picture's centre.
 std::vector<Pose> CentredPoses(const Task& task, const Geometry& start, size_t state)
 {
-	std::vector<Pose> poses = start.poses[state];
+	std::vector<Pose> poses = start.states[state].poses;
 	for (Pose& pose : poses)
 	{
-		pose[3] += (start.principal_point[state][0] - 0.5 * (task.width - 1)) * pose[5] / start.w_px;
-		pose[4] -= (start.principal_point[state][1] - 0.5 * (task.height - 1)) * pose[5] / start.w_px;
+		pose[3] += (start.states[state].principal_point[0] - 0.5 * (task.width - 1)) * pose[5] / start.w_px;
+		pose[4] -= (start.states[state].principal_point[1] - 0.5 * (task.height - 1)) * pose[5] / start.w_px;
 	}
 	return poses;
 }
@@ -152,7 +155,7 @@ StageOne SolveStageOne(const Task& task, const Geometry& start)
 	std::vector<DepthBlur> data;
 	for (const Feature& f : features)
 		data.push_back({ CameraFromBoard(poses[f.photo].data(), f.x, f.y).z, f.blur });
-	StageOne best;
+	std::optional<StageOne> best;
 	for (const UntiltedGuess& guess : ScanUntilted(data, start.w_px))
 	{
 		if (std::abs(guess.inverse_focus) < 1e-9)
@@ -162,17 +165,17 @@ StageOne SolveStageOne(const Task& task, const Geometry& start)
 		Build(features, s, problem);
 		ceres::Solver::Summary summary;
 		ceres::Solve(Options(), &problem, &summary);
-		if (summary.IsSolutionUsable() && summary.final_cost < best.cost)
+		if (summary.IsSolutionUsable() && (!best || summary.final_cost < best->cost))
 		{
 			s.cost = summary.final_cost;
 			best = s;
 		}
 	}
-	if (best.cost >= 1e300)
+	if (!best)
 		throw Refused("the paper's stage 1 did not converge");
-	best.d = std::abs(best.d);
-	StageOneSigmas(features, best);
-	return best;
+	best->d = std::abs(best->d);
+	StageOneSigmas(features, *best);
+	return *best;
 }
 
 std::vector<StageTwoCost> StageTwoCosts(const Task& task, const State& state, const StageOne& one, const std::vector<Pose>& poses)
@@ -197,10 +200,10 @@ double SumOfSquares(const std::vector<StageTwoCost>& costs, double tan_tilt)
 /// tan(theta_F) by (4): the sum is scanned over all tilts, then refined from its lowest point.
 Estimate SolveStageTwo(const std::vector<StageTwoCost>& costs, StateLens& lens)
 {
-	double best = 0, least = 1e300;
+	double best = 0, least = std::numeric_limits<double>::infinity();
 	for (int k = -440; k <= 440; ++k)
 	{
-		const double t = std::tan(k * 0.2 * 3.14159265358979 / 180);
+		const double t = std::tan(k * 0.2 * tilt_lens::PI / 180);
 		const double value = SumOfSquares(costs, t);
 		if (value < least)
 			least = value, best = t;
@@ -241,23 +244,24 @@ void Solve(const Task& task, const Geometry& start, Geometry& found, Solution& o
 	found.w_px = one.w_px;
 	found.w_px_sigma = one.w_sigma;
 	found.distortion_terms = 0;
-	found.lens_normal.assign(task.states.size(), Vec3<double>{ 0, 0, 1 });
 	found.distortion = found.distortion_sigma = Distortion{};
-	found.poses[0] = one.poses;
+	found.states[0].poses = one.poses;
 	out.w_mm = { w, w_sigma };
 	out.aperture_diameter = { one.d, one.d_sigma };
 	double total = 0;
 	int count = 0;
 	for (size_t s = 0; s < task.states.size(); ++s)
 	{
-		found.principal_point[s] = { 0.5 * (task.width - 1), 0.5 * (task.height - 1) };
-		found.principal_point_sigma[s] = { 0, 0 };
-		found.principal_point_fixed[s] = true;
+		StateGeometry& state = found.states[s];
+		state.lens_normal = { 0, 0, 1 };
+		state.principal_point = { 0.5 * (task.width - 1), 0.5 * (task.height - 1) };
+		state.principal_point_sigma = { 0, 0 };
+		state.principal_point_fixed = true;
 		if (s > 0)
-			found.poses[s] = task.states[s].photos.size() == one.poses.size() ? one.poses : CentredPoses(task, start, s);
+			state.poses = task.states[s].photos.size() == one.poses.size() ? one.poses : CentredPoses(task, start, s);
 		StateLens lens;
 		Estimate slope{ 0, 0 };
-		const std::vector<StageTwoCost> costs = StageTwoCosts(task, task.states[s], one, found.poses[s]);
+		const std::vector<StageTwoCost> costs = StageTwoCosts(task, task.states[s], one, found.states[s].poses);
 		if (s > 0)
 			slope = SolveStageTwo(costs, lens);
 		lens.edges = int(costs.size());
@@ -278,7 +282,7 @@ void Solve(const Task& task, const Geometry& start, Geometry& found, Solution& o
 Solution SolvePaper(const Task& task, const Geometry& start, Geometry& found)
 {
 	Solution solution;
-	solution.model = "paper";
+	solution.model = Model::PAPER;
 	try
 	{
 		Solve(task, start, found, solution);

@@ -39,23 +39,23 @@ struct Size
 	double width = 0, height = 0;
 };
 
-Size PatternSize(const Target& t)
+Size PatternSize(const Board& t)
 {
 	switch (t.kind)
 	{
-	case TargetKind::CHECKERBOARD: return { t.columns * t.square, t.rows * t.square };
-	case TargetKind::CIRCLES: return { (t.columns - 1) * t.square + t.circle_diameter, (t.rows - 1) * t.square + t.circle_diameter };
+	case TargetKind::CHECKERBOARD: return { t.columns * t.square_mm, t.rows * t.square_mm };
+	case TargetKind::CIRCLES: return { (t.columns - 1) * t.square_mm + t.circle_diameter_mm, (t.rows - 1) * t.square_mm + t.circle_diameter_mm };
 	case TargetKind::ASYMMETRIC_CIRCLES: break;
 	}
-	return { (2 * t.columns - 1) * t.square + t.circle_diameter, (t.rows - 1) * t.square + t.circle_diameter };
+	return { (2 * t.columns - 1) * t.square_mm + t.circle_diameter_mm, (t.rows - 1) * t.square_mm + t.circle_diameter_mm };
 }
 
 /// Half a square stays white: what detectors need beyond the outermost squares. The same
 /// for circles beyond their rims.
-double Quiet(const Target& t) { return 0.5 * t.square; }
+double Quiet(const Board& t) { return 0.5 * t.square_mm; }
 
 /// The least page.
-Size Needed(const Target& t, double margin)
+Size Needed(const Board& t, double margin)
 {
 	const Size pattern = PatternSize(t);
 	return { std::max(pattern.width + 2 * Quiet(t), STRIP_WIDTH) + 2 * margin, pattern.height + 2 * Quiet(t) + STRIP_HEIGHT + 2 * margin };
@@ -78,7 +78,7 @@ std::string NamesOfPapers()
 	return names;
 }
 
-[[noreturn]] void RefusePaper(const Target& t, const std::string& paper, const Size& needed)
+[[noreturn]] void RefusePaper(const Board& t, const std::string& paper, const Size& needed)
 {
 	std::string better;
 	for (size_t i = 0; i < ISO_PAPERS && better.empty(); ++i)
@@ -91,7 +91,7 @@ std::string NamesOfPapers()
 }
 
 /// The page's size; `name` receives what to call it.
-Size ChoosePaper(const Target& t, const std::string& text, const Size& needed, std::string& name)
+Size ChoosePaper(const Board& t, const std::string& text, const Size& needed, std::string& name)
 {
 	double w = 0, h = 0;
 	char rest = 0;
@@ -123,13 +123,7 @@ Size ChoosePaper(const Target& t, const std::string& text, const Size& needed, s
 
 }
 
-Target MakeTarget(TargetKind kind, const std::string& board, double square_mm, double circle_diameter_mm)
-{
-	const Board checked = MakeBoard(kind, board, square_mm, circle_diameter_mm, "--kind");
-	return { kind, checked.columns, checked.rows, checked.square_mm, checked.circle_diameter_mm };
-}
-
-TargetPage LayOut(const Target& target, const std::string& paper, double margin_mm)
+TargetPage LayOut(const Board& target, const std::string& paper, double margin_mm)
 {
 	if (!(margin_mm >= 0) || !std::isfinite(margin_mm))
 		throw UsageError(fmt::format("--margin {}: give the width of the unprinted rim in mm, 0 or more", margin_mm));
@@ -150,35 +144,35 @@ TargetPage LayOut(const Target& target, const std::string& paper, double margin_
 
 std::vector<PagePoint> CircleCentres(const TargetPage& page)
 {
-	const Target& t = page.target;
+	const Board& t = page.target;
 	const PagePoint first = Origin(page);
 	std::vector<PagePoint> centres;
 	for (int j = 0; j < t.rows; ++j)
 		for (int i = 0; i < t.columns; ++i)
 		{
 			const int steps = t.kind == TargetKind::CIRCLES ? i : 2 * i + j % 2;
-			centres.push_back({ first.x + steps * t.square, first.y + j * t.square });
+			centres.push_back({ first.x + steps * t.square_mm, first.y + j * t.square_mm });
 		}
 	return centres;
 }
 
 std::vector<PagePoint> BlackSquares(const TargetPage& page)
 {
-	const Target& t = page.target;
+	const Board& t = page.target;
 	std::vector<PagePoint> squares;
 	for (int j = 0; j < t.rows; ++j)
 		for (int i = j % 2; i < t.columns; i += 2)
-			squares.push_back({ page.pattern.x + i * t.square, page.pattern.y + j * t.square });
+			squares.push_back({ page.pattern.x + i * t.square_mm, page.pattern.y + j * t.square_mm });
 	return squares;
 }
 
 PagePoint Origin(const TargetPage& page)
 {
-	const double inwards = page.target.IsCheckerboard() ? page.target.square : 0.5 * page.target.circle_diameter;
+	const double inwards = page.target.IsCheckerboard() ? page.target.square_mm : 0.5 * page.target.circle_diameter_mm;
 	return { page.pattern.x + inwards, page.pattern.y + inwards };
 }
 
-bool LooksTheSameTurned(const Target& t)
+bool LooksTheSameTurned(const Board& t)
 {
 	switch (t.kind)
 	{
@@ -188,13 +182,6 @@ bool LooksTheSameTurned(const Target& t)
 	}
 	// The last row is moved where the first is not: turned, they change places.
 	return t.rows % 2 == 0;
-}
-
-std::string Describe(const Target& t)
-{
-	if (t.IsCheckerboard())
-		return fmt::format("checkerboard, {} x {} squares of {:g} mm", t.columns, t.rows, t.square);
-	return fmt::format("{}, {} x {}, spacing {:g} mm, diameter {:.6g} mm", NameOf(t.kind), t.columns, t.rows, t.square, t.circle_diameter);
 }
 
 void CheckTargetSuffix(const std::string& file)

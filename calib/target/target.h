@@ -14,18 +14,6 @@
 namespace tiltcal
 {
 
-struct Target
-{
-	TargetKind kind = TargetKind::CHECKERBOARD;
-	int columns = 0, rows = 0;     ///< squares, or circles
-	/// Side of a square; distance of circles in a row and of rows. Asymmetric: distance of
-	/// rows, half the distance of circles in a row (OpenCV's squareSize).
-	double square = 0;
-	double circle_diameter = 0;
-
-	bool IsCheckerboard() const { return kind == TargetKind::CHECKERBOARD; }
-};
-
 /// A point of the page, mm.
 struct PagePoint
 {
@@ -36,7 +24,7 @@ struct PagePoint
 /// zone, the strip with scale bar and text, margin.
 struct TargetPage
 {
-	Target target;
+	Board target;
 	std::string paper;                 ///< "a3 landscape", "420x300"
 	double width = 0, height = 0;
 	PagePoint pattern;                 ///< top left of the pattern's bounding box
@@ -47,13 +35,10 @@ struct TargetPage
 
 const double SCALE_BAR_MM = 100;
 
-/// MakeBoard's numbers. Throws UsageError.
-Target MakeTarget(TargetKind kind, const std::string& board, double square_mm, double circle_diameter_mm);
-
 /// `paper`: a name (a4, letter, ..; turned as the target needs it), WxH in mm (taken as it
 /// is), or "auto", the smallest ISO size that holds the target. Throws UsageError for an
 /// unknown name, Refused when the target does not fit, naming a paper that holds it.
-TargetPage LayOut(const Target& target, const std::string& paper, double margin_mm);
+TargetPage LayOut(const Board& target, const std::string& paper, double margin_mm);
 
 /// Centres of the circles on the page, row by row.
 std::vector<PagePoint> CircleCentres(const TargetPage& page);
@@ -66,10 +51,7 @@ PagePoint Origin(const TargetPage& page);
 
 /// Whether the target looks the same when it is turned by 180 degrees, so that no
 /// detector can tell its two ends apart.
-bool LooksTheSameTurned(const Target& target);
-
-/// "checkerboard, 12 x 9 squares of 25 mm", for the edge of the page and for comments.
-std::string Describe(const Target& target);
+bool LooksTheSameTurned(const Board& target);
 
 /// Writes FILE by its suffix: .svg and .pdf (target_print.cpp, cairo, true size), .inc
 /// (TargetInc). Whole files only. Throws UsageError (suffix), FileError.

@@ -28,7 +28,7 @@ std::string Polygon(double left, double bottom, double right, double top, const 
 
 std::string TargetInc(const TargetPage& page)
 {
-	const Target& t = page.target;
+	const Board& t = page.target;
 	const PagePoint origin = Origin(page);
 	const auto x = [&](double page_x) { return page_x - origin.x; };
 	const auto y = [&](double page_y) { return origin.y - page_y; };
@@ -42,9 +42,9 @@ std::string TargetInc(const TargetPage& page)
 		TILTCAL_VERSION, Describe(t), page.paper, t.IsCheckerboard() ? "inner corner" : "circle's centre");
 	out += Number("Columns", t.columns, t.IsCheckerboard() ? "squares" : "circles");
 	out += Number("Rows", t.rows, t.IsCheckerboard() ? "squares" : "circles");
-	out += Number("Square", t.square, t.IsCheckerboard() ? "mm, side of a square" : "mm, spacing");
+	out += Number("Square", t.square_mm, t.IsCheckerboard() ? "mm, side of a square" : "mm, spacing");
 	if (!t.IsCheckerboard())
-		out += Number("Circle_Diameter", t.circle_diameter, "mm");
+		out += Number("Circle_Diameter", t.circle_diameter_mm, "mm");
 	out += Number("Left", x(0), "mm, the page's edges") + Number("Right", x(page.width), "mm") + Number("Bottom", y(page.height), "mm") + Number("Top", y(0), "mm");
 
 	// Beside every pigment: a union's finish does not reach parts that have a pigment of their own.
@@ -53,10 +53,10 @@ std::string TargetInc(const TargetPage& page)
 		+ Polygon(x(0), y(page.height), x(page.width), y(0), "0.001") + " pigment { color rgb TiltCal_Target_White } finish { TiltCal_Target_Finish } }\n\tunion {\n";
 	if (t.IsCheckerboard())
 		for (const PagePoint& p : BlackSquares(page))
-			out += "\t\t" + Polygon(x(p.x), y(p.y + t.square), x(p.x + t.square), y(p.y), "0") + " }\n";
+			out += "\t\t" + Polygon(x(p.x), y(p.y + t.square_mm), x(p.x + t.square_mm), y(p.y), "0") + " }\n";
 	else
 		for (const PagePoint& p : CircleCentres(page))
-			out += fmt::format("\t\tdisc {{ <{:.10g}, {:.10g}, 0>, z, {:.10g} }}\n", x(p.x), y(p.y), 0.5 * t.circle_diameter);
+			out += fmt::format("\t\tdisc {{ <{:.10g}, {:.10g}, 0>, z, {:.10g} }}\n", x(p.x), y(p.y), 0.5 * t.circle_diameter_mm);
 	return out + "\t\tpigment { color rgb TiltCal_Target_Black } finish { TiltCal_Target_Finish }\n\t}\n}\n";
 }
 

@@ -4,6 +4,7 @@
 
 #include "target/target.h"
 
+#include "lens/angles.h"
 #include <cairo-pdf.h>
 #include <cairo-svg.h>
 #include <fmt/format.h>
@@ -28,12 +29,12 @@ void DrawPattern(cairo_t* c, const TargetPage& page)
 {
 	if (page.target.IsCheckerboard())
 		for (const PagePoint& p : BlackSquares(page))
-			cairo_rectangle(c, p.x, p.y, page.target.square, page.target.square);
+			cairo_rectangle(c, p.x, p.y, page.target.square_mm, page.target.square_mm);
 	else
 		for (const PagePoint& p : CircleCentres(page))
 		{
 			cairo_new_sub_path(c);
-			cairo_arc(c, p.x, p.y, 0.5 * page.target.circle_diameter, 0, 2 * 3.14159265358979323846);
+			cairo_arc(c, p.x, p.y, 0.5 * page.target.circle_diameter_mm, 0, 2 * tilt_lens::PI);
 		}
 	cairo_fill(c);
 }

@@ -2,7 +2,7 @@
 
 #include "prediction.h"
 
-#include "base/transfer.h"
+#include <tiltcal/transfer.h>
 
 #include <boost/math/distributions/chi_squared.hpp>
 #include <fmt/format.h>

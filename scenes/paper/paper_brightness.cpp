@@ -3,7 +3,7 @@
 #include "paper_brightness.h"
 
 #include "picture/image_io.h"
-#include "base/transfer.h"
+#include <tiltcal/transfer.h>
 
 #include <cmath>
 

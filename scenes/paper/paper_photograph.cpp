@@ -6,7 +6,7 @@
 #include "base/files.h"
 #include "picture/image_io.h"
 #include "picture/picture_file.h"
-#include "base/transfer.h"
+#include <tiltcal/transfer.h>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

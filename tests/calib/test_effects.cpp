@@ -64,7 +64,7 @@ Calibration Coloured(const std::vector<Lens>& lenses, double red, double blue, d
 		c.geometry.poses.emplace_back();
 		for (Photo& photo : c.task.states[s].photos)
 		{
-			c.geometry.poses[s].push_back({ 0.5, 0, 0, -125, 87, 630 });   // for the blur only, which is the same in all colours here
+			c.geometry.states[s].poses.push_back({ 0.5, 0, 0, -125, 87, 630 });   // for the blur only, which is the same in all colours here
 			photo.coloured = true;
 			for (size_t k = 0; k < photo.edges.size(); k += 3)
 			{
@@ -193,7 +193,7 @@ Calibration FromPictures(std::vector<ColourPicture> pictures)
 	{
 		MeasureColours(p.picture, c.task.board, p.photo);
 		state.photos.push_back(p.photo);
-		c.geometry.poses[0].push_back({ 0.5, 0, 0, -105, 75, 470 });
+		c.geometry.states[0].poses.push_back({ 0.5, 0, 0, -105, 75, 470 });
 	}
 	c.task.states = { state };
 	c.geometry.w_px = 600;

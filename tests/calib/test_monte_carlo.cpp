@@ -77,8 +77,8 @@ TEST(MonteCarlo, TrueValuesAreInsideTwoSigmaAsOftenAsTheyShould)
 		count("direction", a.tilt_direction, b.tilt_direction);
 		count("plane tilt", a.focal_plane_tilt, b.focal_plane_tilt);
 		count("U tilted", a.focus_distance, b.focus_distance);
-		count("principal point", { g.principal_point[1][0], g.principal_point_sigma[1][0] }, { exact.geometry.principal_point[1][0], 0 });
-		count("pose", { g.poses[0][1][5], g.pose_sigmas[0][1][5] }, { exact.geometry.poses[0][1][5], 0 });
+		count("principal point", { g.states[1].principal_point[0], g.states[1].principal_point_sigma[0] }, { exact.geometry.states[1].principal_point[0], 0 });
+		count("pose", { g.states[0].poses[1][5], g.states[0].pose_sigmas[1][5] }, { exact.geometry.states[0].poses[1][5], 0 });
 	}
 	for (const auto& [name, n] : inside)
 	{

@@ -2,7 +2,7 @@
 
 #include <tiltcal/error.h>
 #include "profile/profile.h"
-#include "base/transfer.h"
+#include <tiltcal/transfer.h>
 
 #include <gtest/gtest.h>
 

@@ -135,7 +135,7 @@ TEST(RealBoards, SonyChessIntrinsics)
 	ASSERT_EQ(task.states[0].photos.size(), 13u);
 	const Geometry g = SelectGeometry(task, {});
 	std::printf("w %.2f +- %.2f px, principal point %.2f %.2f, k1 %.4f k2 %.4f, %.3f px RMS\n", g.w_px, g.w_px_sigma,
-		g.principal_point[0][0], g.principal_point[0][1], g.distortion[0], g.distortion[1], g.rms);
+		g.states[0].principal_point[0], g.states[0].principal_point[1], g.distortion[0], g.distortion[1], g.rms);
 	// intrinsic.yaml, with the model that it has: two focal lengths, k1, k2. Bounds: three of the fit's own sigmas.
 	const OpenCvCamera published = CalibrateWithOpenCv(task, cv::CALIB_ZERO_TANGENT_DIST | cv::CALIB_FIX_K3);
 	EXPECT_NEAR(published.fx, 701.01, 3 * published.sigma[0]);
@@ -148,8 +148,8 @@ TEST(RealBoards, SonyChessIntrinsics)
 	ASSERT_EQ(g.distortion_terms, 1);
 	// The weights of the corners differ, by a part of a sigma.
 	EXPECT_NEAR(g.w_px, same.fx, g.w_px_sigma);
-	EXPECT_NEAR(g.principal_point[0][0], same.cx, 2);
-	EXPECT_NEAR(g.principal_point[0][1], same.cy, 2);
+	EXPECT_NEAR(g.states[0].principal_point[0], same.cx, 2);
+	EXPECT_NEAR(g.states[0].principal_point[1], same.cy, 2);
 	EXPECT_NEAR(g.distortion[0], same.k1, 0.01);
 }
 
@@ -242,7 +242,7 @@ TEST(RealBoards, SonyCirclesAreFoundAndFit)
 		}
 	const OpenCvCamera middles = CalibrateWithOpenCv(blobs, flags);
 	std::printf("w %.2f +- %.2f px, principal point %.2f %.2f, %d terms, k1 %.4f, %.3f px RMS; OpenCV from our centres f %.2f k1 %.4f %.3f px, from blobs f %.2f %.3f px\n", g.w_px, g.w_px_sigma,
-		g.principal_point[0][0], g.principal_point[0][1], g.distortion_terms, g.distortion[0], g.rms, ours.fx, ours.k1, ours.rms, middles.fx, middles.rms);
+		g.states[0].principal_point[0], g.states[0].principal_point[1], g.distortion_terms, g.distortion[0], g.rms, ours.fx, ours.k1, ours.rms, middles.fx, middles.rms);
 	double print = 0, their_print = 0;
 	const double scatter = ScatterOnBoard(task, print), their_scatter = ScatterOnBoard(blobs, their_print);
 	std::printf("places on the board scatter by %.3f mm, of blobs by %.3f mm; the print is no grid by %.3f mm\n", scatter, their_scatter, print);

@@ -41,7 +41,7 @@ TEST_P(EveryTilt, ComesBackWithoutNoise)
 	const Solution& s = c.solution;
 	// Corners are exact, so w is: only the solver's tolerance is left.
 	EXPECT_NEAR(s.w_mm.value, untilted.w, 1e-3);
-	EXPECT_NEAR(c.geometry.principal_point[1][1], tilted.cy, 0.01);
+	EXPECT_NEAR(c.geometry.states[1].principal_point[1], tilted.cy, 0.01);
 	// Left out is what is of second order in the aperture, (d/2)^2 |q|^2 = 4e-4 of the blur at most.
 	EXPECT_NEAR(s.aperture_diameter.value, untilted.d, 0.001 * untilted.d);
 	EXPECT_NEAR(s.states[0].focus_distance.value, untilted.FocusDistance(), 0.1);

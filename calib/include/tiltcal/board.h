@@ -5,6 +5,8 @@
 #ifndef TILTCAL_BOARD_H
 #define TILTCAL_BOARD_H
 
+#include <tiltcal/api.h>
+
 #include <string>
 
 namespace tiltcal
@@ -18,8 +20,8 @@ enum class TargetKind
 };
 
 /// "checkerboard", "circles", "asymmetric-circles". `option` is named in the UsageError.
-TargetKind ParseTargetKind(const std::string& text, const std::string& option);
-std::string NameOf(TargetKind kind);
+TILTCAL_API TargetKind ParseTargetKind(const std::string& text, const std::string& option);
+TILTCAL_API std::string NameOf(TargetKind kind);
 
 /// Counts squares or circles, as the command line does: 12 x 9 squares have 11 x 8 inner corners.
 /// Features are inner corners, or centres of circles. Their (column, row) is their place in units of `square_mm`:
@@ -49,12 +51,15 @@ struct Board
 	double Y(double row) const { return -row * square_mm; }
 };
 
+/// "checkerboard, 12 x 9 squares of 25 mm".
+TILTCAL_API std::string Describe(const Board& board);
+
 /// Checkerboard "12x9". Throws UsageError.
-Board ParseBoard(const std::string& text, double square_mm);
+TILTCAL_API Board ParseBoard(const std::string& text, double square_mm);
 
 /// Any target. A circle_diameter of 0 becomes half the distance of neighbouring centres; checkerboards have none.
 /// `kind_option` is named in the UsageError.
-Board MakeBoard(TargetKind kind, const std::string& text, double square_mm, double circle_diameter_mm, const std::string& kind_option);
+TILTCAL_API Board MakeBoard(TargetKind kind, const std::string& text, double square_mm, double circle_diameter_mm, const std::string& kind_option);
 
 }
 

@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// The whole way: photographs, what is measured in them, the calibration.
 
 #ifndef TILTCAL_CALIBRATE_H
 #define TILTCAL_CALIBRATE_H
 
+#include <tiltcal/api.h>
 #include <tiltcal/calibration.h>
-#include "measure/detect.h"
-#include "effects/effects.h"
-#include "solve/joint_fit.h"
-#include "measure/measure.h"
-#include "base/transfer.h"
+#include <tiltcal/log.h>
+#include <tiltcal/transfer.h>
 
+#include <optional>
+#include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace tiltcal
 {
 
-/// Throws UsageError for a --pitch (mm) that no sensor has.
-void CheckPitch(double pitch_mm);
+/// Throws UsageError for a pitch (mm) that no sensor has.
+TILTCAL_API void CheckPitch(double pitch_mm);
 
 struct StateFiles
 {
@@ -26,13 +27,24 @@ struct StateFiles
 	std::vector<std::string> files;
 };
 
-/// Measures every photograph, with progress on the log. States come out in the order
-/// given; the first is the untilted one. Throws Error: unreadable, no board, sizes differ.
-Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, double pitch_mm,
-	const Transfer& transfer, const DetectOptions& options, const EdgeChoice& choice = {});
+struct MeasureOptions
+{
+	Transfer transfer;
+	/// Accept a board that appears turned by more than 90 degrees from its upright position. Off by default: a
+	/// checkerboard's colours cannot tell a mirrored picture from a board upside down.
+	bool any_orientation = false;
+	/// 0: all edges; otherwise so many of every photograph, spread over the board (measure/spread_order.h): faster, less accurate.
+	int edges_per_photo = 0;
+	double edge_phase = 0;   ///< 0 to 1: which ones, of measure/spread_order.h
+	Log log;
+};
+
+/// Measures every photograph. States come out in the order given; the first is the untilted one. `pitch_mm`: distance of
+/// the sensor's pixel centres. Throws Error: unreadable, no board, sizes differ.
+TILTCAL_API Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, double pitch_mm, const MeasureOptions& options = {});
 
 /// Measures a photograph of an evenly lit plain surface taken in state `state`. Throws Error: unreadable, of another size, clipped, dark.
-void AddFlatField(Task& task, size_t state, const std::string& file, const Transfer& transfer);
+TILTCAL_API void AddFlatField(Task& task, size_t state, const std::string& file, const MeasureOptions& options = {});
 
 /// Whether photograph n shows the board in the same pose in every state.
 enum class Poses
@@ -42,12 +54,45 @@ enum class Poses
 	OWN
 };
 
-/// Solves everything. `model` is "plane", "rigid", "curved", "paper", or "auto": curved where CurvatureIsSeen,
-/// else plane. The paper's model is always solved
-/// too, and only refused when it was the one asked for. Then vignetting and chromatic aberration are estimated, and the
-/// effects chosen. Throws Refused.
-Calibration Calibrate(const Task& task, const std::string& model, Poses poses, Refinement refinement = Refinement::EDGES,
-	const EffectChoice& effects = {});
+/// What the last step compares.
+enum class Refinement
+{
+	NONE,         ///< nothing: geometry first, then blur with the geometry held
+	EDGES,        ///< place and blur width of every edge
+	PHOTOMETRIC   ///< the brightness across every edge
+};
+
+/// Which effects the camera blocks name.
+struct EffectChoice
+{
+	enum Kind
+	{
+		AUTO,    ///< significant at 2 sigma, and photographs left out are predicted better
+		ALL,     ///< all that can be estimated
+		LIST     ///< exactly `listed`, which may be none
+	} kind = AUTO;
+	std::set<EffectId> listed;
+
+	/// Named, or one of all.
+	bool Wants(EffectId effect) const { return kind == ALL || (kind == LIST && listed.count(effect) > 0); }
+	/// Not to be written whatever the photographs say.
+	bool Excludes(EffectId effect) const { return kind == LIST && listed.count(effect) == 0; }
+};
+
+struct CalibrateOptions
+{
+	/// None: curved where it predicts photographs left out better (CurvatureIsSeen), else plane.
+	std::optional<Model> model;
+	Poses poses = Poses::AUTO;
+	Refinement refinement = Refinement::EDGES;
+	EffectChoice effects;
+	Log log;
+};
+
+/// Solves everything. The paper's model is always solved too, and only refused when it was the one asked for. Then vignetting
+/// and chromatic aberration are estimated, the effects chosen and the result judged. Throws Refused, naming what to photograph;
+/// UsageError where the options contradict each other.
+TILTCAL_API Calibration Calibrate(const Task& task, const CalibrateOptions& options = {});
 
 }
 

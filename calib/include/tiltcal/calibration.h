@@ -7,10 +7,12 @@
 #ifndef TILTCAL_CALIBRATION_H
 #define TILTCAL_CALIBRATION_H
 
+#include <tiltcal/api.h>
 #include <tiltcal/frames.h>
 #include <tiltcal/task.h>
 
 #include <array>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,23 +26,29 @@ struct Estimate
 	double value = 0, sigma = 0;
 };
 
-/// Where the boards and the sensor are. Indices: state, then photo.
+/// Where one state's sensor stands, and its boards. Vectors by photograph.
+struct StateGeometry
+{
+	Vec3<double> lens_normal{ 0, 0, 1 };           ///< the axis of the distortion, given
+	/// Where the lens centre stands, seen from the untilted state's, camera frame, mm: a real lens turns about a pivot
+	/// away from its pupil. Free where poses are shared (solve/joint_fit.h), else 0. `poses` hold it already.
+	Vec3<double> lens_centre{ 0, 0, 0 }, lens_centre_sigma{ 0, 0, 0 };
+	bool principal_point_fixed = false;            ///< not determined, and kept at the picture's centre
+	Point principal_point{}, principal_point_sigma{};   ///< px
+	std::vector<Pose> poses, pose_sigmas;          ///< camera_from_board
+	std::vector<double> photo_rms;                 ///< reprojection, px: sqrt(mean(dx^2 + dy^2))
+};
+
+/// Where the boards and the sensor are.
 struct Geometry
 {
 	double w_px = 0, w_px_sigma = 0;
 	int distortion_terms = 0;      ///< 0 none, 1 k1, 2 k1 k2, 4 with p1 p2, 5 with k3
-	std::vector<Vec3<double>> lens_normal;         ///< the axis of the distortion, given
 	bool shared_poses = false;     ///< photograph n of every state shows the board in one pose
-	/// Where the lens centre of a state stands, seen from the untilted one, camera frame, mm: a real lens turns
-	/// about a pivot away from its pupil. Free where poses are shared (joint_fit.h), else 0. `poses` hold it already.
-	std::vector<Vec3<double>> lens_centre, lens_centre_sigma;
-	double pupil_magnification = 1, pupil_magnification_sigma = 0;   ///< camera.h; 1 in all that is rendered
+	double pupil_magnification = 1, pupil_magnification_sigma = 0;   ///< exit over entrance pupil; 1 in all that is rendered
 	Distortion distortion{}, distortion_sigma{};
-	std::vector<bool> principal_point_fixed;
-	std::vector<Point> principal_point, principal_point_sigma;
-	std::vector<std::vector<Pose>> poses, pose_sigmas;
-	std::vector<std::vector<double>> photo_rms;    ///< reprojection, px: sqrt(mean(dx^2 + dy^2))
-	double rms = 0;
+	double rms = 0;                ///< reprojection, px
+	std::vector<StateGeometry> states;
 };
 
 /// The lens in one state.
@@ -61,13 +69,25 @@ struct Correlation
 	double value = 0;
 };
 
-/// What a fit without one photograph finds for that photograph's state, and how well it foretells it.
+/// What a fit without one photograph finds for that photograph's state, and how well it predicts it.
 struct LeftOut
 {
 	size_t state = 0, photo = 0;
 	double tilt_change = 0;   ///< length of the change of the tilt vector, degrees
 	double rms_blur = 0;      ///< of the photograph that was left out, px
 };
+
+/// What the lens is taken for (model/names.cpp has their words).
+enum class Model
+{
+	PAPER,    ///< Baba, Nakane, Hiura (3), (4), (1), as printed
+	RIGID,    ///< exact; the lens only turns and keeps f and w
+	PLANE,    ///< exact; a free plane of focus in every state
+	CURVED    ///< PLANE, and a field curvature common to all states
+};
+
+/// "paper", "rigid", "plane", "curved".
+TILTCAL_API const char* NameOf(Model model);
 
 /// Which numbers give a state's surface of focus (model/lens_model.h).
 enum class LensModel
@@ -81,20 +101,28 @@ enum class LensModel
 /// One model's answer.
 struct Solution
 {
-	std::string model;
+	Model model = Model::PLANE;
 	LensModel lens = LensModel::PLANE;    ///< of the exact models
 	Estimate w_mm, aperture_diameter, focus_distance, focal_length, psf_floor_px;
 	std::vector<StateLens> states;
 	double rms_blur = 0;
 	Estimate field_curvature;             ///< C, 1/mm; the mean of the two below
 	Estimate tangential_curvature, sagittal_curvature;
-	double held_out_px = 0;  ///< held_out.h; 0 when it was not asked for or cannot be had
+	double held_out_px = 0;  ///< solve/held_out.h; 0 when it was not asked for or cannot be had
 	std::vector<Correlation> correlations;   ///< of every pair of w, d, U and C, and of each with the tilts
-	std::vector<LeftOut> left_out;   ///< held_out.h: each photograph in turn
+	std::vector<LeftOut> left_out;   ///< solve/held_out.h: each photograph in turn
 	std::string failure;     ///< why there is no answer; empty when there is one
 };
 
-/// What the places of edges say of the tilts (solve_joint.h); no states: nothing.
+/// The exact models on the same edges, with their held_out_px. rigid and curved may have no answer (failure).
+struct ModelComparison
+{
+	Solution rigid, plane, curved;
+
+	std::array<const Solution*, 3> All() const { return { &rigid, &plane, &curved }; }
+};
+
+/// What the places of edges say of the tilts (solve/solve_joint.h); no states: nothing.
 struct GeometryAlone
 {
 	std::vector<StateLens> states;
@@ -122,7 +150,7 @@ struct RimEstimate
 	Estimate radius_mm, distance_mm;
 };
 
-/// Whether there are two rims (second_rim.h).
+/// Whether there are two rims (effects/second_rim.h).
 struct SecondRim
 {
 	bool used = false;
@@ -131,7 +159,7 @@ struct SecondRim
 	double held_out_without = 0, held_out_with = 0;   ///< RMS of brightness and places of edges left out, in sigmas; 0: not known
 };
 
-/// What a fit with some of the two kinds of vignetting finds (vignetting.h).
+/// What a fit with some of the two kinds of vignetting finds (effects/vignetting.h).
 struct FalloffAnswer
 {
 	bool fitted = false;
@@ -157,21 +185,40 @@ struct Vignetting
 	std::array<FalloffAnswer, 4> answers;   ///< by FalloffKind
 };
 
-/// What the colours of edges tell of chromatic aberration (chromatic_fit.h): index 0 red, 1 blue, each against green.
+/// What the colours of edges tell of chromatic aberration (effects/chromatic_fit.h): index 0 red, 1 blue, each against green.
 struct Chromatic
 {
 	std::string failure;      ///< why nothing can be said; empty when something can
 	int edges = 0;
-	std::array<Estimate, 2> lateral;         ///< C_R, C_B of tilt_lens/chromatic.h
+	std::array<Estimate, 2> lateral;         ///< C_R, C_B of lens/chromatic.h
 	std::array<Estimate, 2> axial_per_mm;    ///< A_R, A_B
 	double lateral_held_out_without = 0, lateral_held_out_with = 0;   ///< of an edge's shift, px; 0: there is nothing to leave out
 	double axial_held_out_without = 0, axial_held_out_with = 0;       ///< of an edge's difference in blur width, px
 };
 
+/// The effects of tilt_lens that a calibration can write.
+enum class EffectId
+{
+	DISTORTION,
+	FIELD_CURVATURE,
+	VIGNETTING_NATURAL,
+	VIGNETTING_OPTICAL,
+	CHROMATIC_LATERAL,
+	CHROMATIC_AXIAL,
+	BLADES
+};
+
+/// In the order in which they are chosen and reported.
+const std::array<EffectId, 7> ALL_EFFECTS{ EffectId::DISTORTION, EffectId::FIELD_CURVATURE, EffectId::VIGNETTING_NATURAL, EffectId::VIGNETTING_OPTICAL,
+	EffectId::CHROMATIC_LATERAL, EffectId::CHROMATIC_AXIAL, EffectId::BLADES };
+
+/// "distortion", "field_curvature", ..: as in calibration.json.
+TILTCAL_API const char* NameOf(EffectId effect);
+
 /// An effect of tilt_lens, and whether the camera blocks name it.
 struct Effect
 {
-	std::string name;                        ///< as in --effects
+	EffectId id = EffectId::DISTORTION;
 	std::string failure;                     ///< why it was not estimated; empty when it was
 	bool used = false;
 	std::string why;                         ///< it is written or not
@@ -182,27 +229,51 @@ struct Effect
 	std::string note;                        ///< more to say; may be empty
 };
 
+enum class Grade
+{
+	GOOD,   ///< nothing speaks against it
+	FAIR,   ///< the numbers hold within what the remarks say
+	POOR    ///< photograph more before relying on it
+};
+
+/// "good", "fair", "poor".
+TILTCAL_API const char* NameOf(Grade grade);
+
+struct Remark
+{
+	Grade grade;
+	std::string text;   ///< what, and what to photograph to mend it
+};
+
+/// How far a calibration can be trusted.
+struct Verdict
+{
+	Grade grade = Grade::GOOD;   ///< the worst of the remarks
+	std::vector<Remark> remarks;
+};
+
 struct Calibration
 {
 	Task task;
 	Geometry geometry;           ///< the best one: with distortion where it is significant
 	Geometry pinhole;            ///< without distortion, for a renderer that has none
 	Solution solution;           ///< of the model asked for, with `geometry`
-	Solution render;             ///< the same model with `pinhole`: the numbers of the .inc
+	Solution render;             ///< the same model with `pinhole`: the camera where distortion is switched off
 	std::vector<StateLens> blur_alone;      ///< the same before the joint refinement: blur, with the geometry held
 	GeometryAlone geometry_alone;
-	std::vector<Solution> compared;   ///< CompareExact's, when the model was to be chosen; else empty
+	std::optional<ModelComparison> compared;   ///< when the model was to be chosen
 	Solution paper;              ///< the paper's model, always
 	Geometry paper_geometry;     ///< poses of the paper's stage 1
 	Vignetting vignetting;
 	Chromatic chromatic;
-	std::vector<Effect> effects;   ///< effects.h; empty before they are chosen
+	std::vector<Effect> effects;   ///< of all; empty before they are chosen
+	Verdict verdict;             ///< of the exact models; the paper's is not judged
 
 	/// Geometry that belongs to the calibration's own solution (the paper has its own).
-	const Geometry& MainGeometry() const { return solution.model == "paper" ? paper_geometry : geometry; }
+	const Geometry& MainGeometry() const { return solution.model == Model::PAPER ? paper_geometry : geometry; }
 
-	/// The camera that the .inc holds: without distortion.
-	const Geometry& RenderGeometry() const { return solution.model == "paper" ? paper_geometry : pinhole; }
+	/// The geometry of `render`.
+	const Geometry& RenderGeometry() const { return solution.model == Model::PAPER ? paper_geometry : pinhole; }
 };
 
 }

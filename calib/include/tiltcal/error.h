@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 //
-// The one exception of tiltcal: a message for the user and the exit code it means.
+// The one exception of tiltcal: a message for the user, and what kind of fault it is (tiltcal's exit code).
+// Inputs stand in backquotes, as in log.h.
 
 #ifndef TILTCAL_ERROR_H
 #define TILTCAL_ERROR_H
+
+#include <tiltcal/api.h>
 
 #include <stdexcept>
 #include <string>
@@ -20,7 +23,7 @@ enum ExitCode
 };
 
 /// The message names the file or option at fault and says what to do.
-class Error : public std::runtime_error
+class TILTCAL_API Error : public std::runtime_error
 {
 public:
 	Error(ExitCode exit_code, const std::string& message);
@@ -30,9 +33,9 @@ private:
 	ExitCode code;
 };
 
-Error Refused(const std::string& message);
-Error UsageError(const std::string& message);
-Error FileError(const std::string& message);
+TILTCAL_API Error Refused(const std::string& message);
+TILTCAL_API Error UsageError(const std::string& message);
+TILTCAL_API Error FileError(const std::string& message);
 
 }
 

@@ -5,6 +5,8 @@
 #ifndef TILTCAL_PHOTO_H
 #define TILTCAL_PHOTO_H
 
+#include <tiltcal/api.h>
+
 #include <array>
 #include <optional>
 #include <string>
@@ -23,7 +25,7 @@ struct PhotographFacts
 	std::string make, model, lens;
 	bool subsampled_colour = false;          ///< a JPEG that stores colour at less than full size; not from EXIF, ReadLinear fills it in
 
-	bool Empty() const;
+	TILTCAL_API bool Empty() const;
 };
 
 /// An inner corner, or the image of a circle's centre, in a picture, pixels.
@@ -34,7 +36,7 @@ struct Corner
 	double sigma = 0;   ///< standard deviation of x and of y
 };
 
-/// Brightness of an edge in a narrow strip along it (binned_profile.h).
+/// Brightness of an edge in a narrow strip along it (edge/binned_profile.h).
 struct ProfileBin
 {
 	float x = 0;       ///< distance from the edge, px, dark side negative
@@ -97,10 +99,10 @@ struct Photo
 	bool bright_circles = false; ///< white on dark
 	int edges_dropped = 0;       ///< blurred beyond measuring, or not fitted
 	double saturated_share = 0;  ///< edges whose bright side is clipped
-	std::vector<BrightPatch> white;   ///< of the board (bright_patches.h)
+	std::vector<BrightPatch> white;   ///< of the board (measure/bright_patches.h)
 	int white_saturated = 0;     ///< patches left out because they are clipped
 	bool coloured = false;       ///< the channels differ
-	std::vector<ColourEdge> colours;   ///< of some edges (measure_colours.h)
+	std::vector<ColourEdge> colours;   ///< of some edges (measure/measure_colours.h)
 };
 
 /// Edge::BlurRatio of the edges of a photograph; all 0 when it has none.
@@ -108,13 +110,13 @@ struct BlurRatios
 {
 	double least = 0, median = 0, most = 0;
 };
-BlurRatios RatiosOf(const Photo& photo);
+TILTCAL_API BlurRatios RatiosOf(const Photo& photo);
 
 /// "blur radius 0.02 to 0.31 of a square, median 0.15".
-std::string RatioText(const Photo& photo);
+TILTCAL_API std::string RatioText(const Photo& photo);
 
 /// "88 corners, 157 edges" or "80 dark circles, 640 arcs".
-std::string CountText(const Photo& photo);
+TILTCAL_API std::string CountText(const Photo& photo);
 
 }
 

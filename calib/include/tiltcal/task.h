@@ -5,6 +5,7 @@
 #ifndef TILTCAL_TASK_H
 #define TILTCAL_TASK_H
 
+#include <tiltcal/api.h>
 #include <tiltcal/board.h>
 #include <tiltcal/photo.h>
 
@@ -22,7 +23,7 @@ struct State
 	std::vector<Photo> photos;
 };
 
-/// A photograph of an evenly lit plain surface (bright_patches.h).
+/// A photograph of an evenly lit plain surface (measure/bright_patches.h).
 struct FlatField
 {
 	size_t state = 0;
@@ -30,7 +31,7 @@ struct FlatField
 	std::vector<BrightPatch> patches;
 };
 
-/// The opening's blades (tilt_lens/blades.h).
+/// The opening's blades (lens/blades.h).
 struct FixedBlades
 {
 	int count = 0;                 ///< 0: not known
@@ -53,7 +54,7 @@ struct Prior
 	Quantity quantity;
 	double value, sigma;
 
-	std::string Name() const;   ///< as on the command line
+	TILTCAL_API std::string Name() const;   ///< "focal_length"
 };
 
 struct Task
@@ -64,7 +65,7 @@ struct Task
 	std::vector<State> states;     ///< untilted first
 	std::vector<Prior> priors;     ///< what is known beforehand
 	std::vector<FlatField> flat_fields;
-	FixedBlades blades;            ///< told by --fix; nothing measures them
+	FixedBlades blades;            ///< told; nothing measures them
 };
 
 }

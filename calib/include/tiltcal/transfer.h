@@ -5,6 +5,8 @@
 #ifndef TILTCAL_TRANSFER_H
 #define TILTCAL_TRANSFER_H
 
+#include <tiltcal/api.h>
+
 #include <string>
 
 namespace tiltcal
@@ -17,16 +19,16 @@ struct Transfer
 };
 
 /// "srgb", "linear" or a gamma between 0.1 and 10. Throws UsageError.
-Transfer ParseTransfer(const std::string& text);
+TILTCAL_API Transfer ParseTransfer(const std::string& text);
 
 /// The name as it is given on the command line.
-std::string TransferName(const Transfer& transfer);
+TILTCAL_API std::string TransferName(const Transfer& transfer);
 
 /// Linear light of a coded value (0..1, not clipped).
-double ToLinear(const Transfer& transfer, double coded);
+TILTCAL_API double ToLinear(const Transfer& transfer, double coded);
 
 /// sRGB code 0..1 (IEC 61966-2-1) of linear light; clips to [0, 1].
-double EncodeSrgb(double linear);
+TILTCAL_API double EncodeSrgb(double linear);
 
 }
 

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "camera/state_camera.h"
+
+#include "lens/angles.h"
+#include "effects/effects.h"
+#include "effects/fixed_blades.h"
+#include "lens/distortion.h"
+#include "lens/field_curvature.h"
+#include "model/projection.h"
+
+#include <cmath>
+
+namespace tiltcal
+{
+
+namespace
+{
+
+void AddEffects(const Calibration& c, StateCamera& camera)
+{
+	camera.natural_vignetting = Uses(c, EffectId::VIGNETTING_NATURAL);
+	if (Uses(c, EffectId::VIGNETTING_OPTICAL))
+		for (const RimEstimate& rim : RimOf(c).rims)
+			camera.rims_mm.push_back({ rim.radius_mm.value, rim.distance_mm.value });
+	const auto values = [](const std::array<Estimate, 2>& e) { return TwoNumbers{ e[0].value, e[1].value }; };
+	if (Uses(c, EffectId::CHROMATIC_LATERAL))
+		camera.lateral = values(c.chromatic.lateral);
+	if (Uses(c, EffectId::CHROMATIC_AXIAL))
+		camera.axial_per_mm = values(c.chromatic.axial_per_mm);
+	if (!Uses(c, EffectId::BLADES))
+		return;
+	// The circle through the corners of blades is wider than the disc that was fitted.
+	const double widening = WideningForBlades(c.task.blades);
+	camera.blades = c.task.blades;
+	camera.aperture_diameter_mm *= widening;
+	camera.sigma.aperture_diameter_mm *= widening;
+}
+
+}
+
+StateCamera CameraOfFit(const Task& task, const Solution& solution, const Geometry& geometry, size_t s)
+{
+	const StateLens& lens = solution.states[s];
+	const StateGeometry& state = geometry.states[s];
+	StateCamera c;
+	c.state = task.states[s].name;
+	c.model = NameOf(solution.model);
+	c.width = task.width;
+	c.height = task.height;
+	c.pitch_mm = task.pitch_mm;
+	const auto take = [](const Estimate& e, double& value, double& sigma)
+	{
+		value = e.value;
+		sigma = e.sigma;
+	};
+	take(solution.w_mm, c.image_distance_mm, c.sigma.image_distance_mm);
+	take(solution.aperture_diameter, c.aperture_diameter_mm, c.sigma.aperture_diameter_mm);
+	take(solution.field_curvature, c.field_curvature_per_mm, c.sigma.field_curvature_per_mm);
+	take(solution.psf_floor_px, c.psf_floor_px, c.sigma.psf_floor_px);
+	take(lens.lens_tilt, c.lens_tilt_deg, c.sigma.lens_tilt_deg);
+	take(lens.tilt_direction, c.tilt_direction_deg, c.sigma.tilt_direction_deg);
+	take(lens.focal_plane_tilt, c.focal_plane_tilt_deg, c.sigma.focal_plane_tilt_deg);
+	take(lens.focus_distance, c.focus_distance_mm, c.sigma.focus_distance_mm);
+	take(lens.focal_length, c.focal_length_mm, c.sigma.focal_length_mm);
+	c.principal_point = state.principal_point;
+	c.sigma.principal_point = state.principal_point_sigma;
+	c.distortion = geometry.distortion;
+	c.sigma.distortion = geometry.distortion_sigma;
+	c.lens_centre_mm = state.lens_centre;
+	c.sigma.lens_centre_mm = state.lens_centre_sigma;
+	return c;
+}
+
+StateCamera CameraOfState(const Calibration& c, size_t s, Distorted distorted)
+{
+	const bool bare = distorted == Distorted::NO || !Uses(c, EffectId::DISTORTION);
+	StateCamera camera = bare ? CameraOfFit(c.task, c.render, c.RenderGeometry(), s) : CameraOfFit(c.task, c.solution, c.MainGeometry(), s);
+	AddEffects(c, camera);
+	return camera;
+}
+
+Vec3<double> StateCamera::LensNormal() const
+{
+	const double radians = tilt_lens::PI / 180;
+	return tilt_lens::LensNormalFromTilt(lens_tilt_deg * radians, tilt_direction_deg * radians);
+}
+
+Vec3<double> StateCamera::PlaneOfFocus() const
+{
+	return tilt_lens::PlaneFromLensTilt(LensNormal(), 1 / image_distance_mm, 1 / focus_distance_mm);
+}
+
+std::optional<Point> Project(const StateCamera& c, const Vec3<double>& P)
+{
+	const Vec3<double> n = c.LensNormal();
+	if (!(Dot(P, n) > 0) || !(P.z > 0))
+		return std::nullopt;
+	Point pixel;
+	MakePicture(c.ImageDistancePx(), c.distortion.data(), c.principal_point.data(), n).Project(P, pixel.data());
+	return pixel;
+}
+
+Vec3<double> Unproject(const StateCamera& c, const Point& pixel)
+{
+	const Vec3<double> n = c.LensNormal();
+	const tilt_lens::LensBasis<double> basis = tilt_lens::BasisOfLensPlane(n);
+	const double w = c.ImageDistancePx();
+	const Vec3<double> v{ (pixel[0] - c.principal_point[0]) / w, -(pixel[1] - c.principal_point[1]) / w, 1 };
+	return tilt_lens::UndistortDirection(c.distortion.data(), basis.a, basis.b, n, v);
+}
+
+double BlurWidth(const StateCamera& c, const Vec3<double>& P)
+{
+	const double kappa_z = tilt_lens::InverseFocusDistanceOnBowl(c.PlaneOfFocus(), c.field_curvature_per_mm, c.LensNormal(), P);
+	return c.ImageDistancePx() * c.aperture_diameter_mm * std::abs(1 - kappa_z) / P.z;
+}
+
+}

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// The camera of one state: what a picture needs, from a calibration or a file. Frames of frames.h; mm, degrees, px.
+
+#ifndef TILTCAL_CAMERA_H
+#define TILTCAL_CAMERA_H
+
+#include <tiltcal/api.h>
+#include <tiltcal/calibration.h>
+#include <tiltcal/frames.h>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tiltcal
+{
+
+/// Radius and distance of a rim, or the numbers of red and of blue.
+using TwoNumbers = std::array<double, 2>;
+
+/// One standard deviation of the members of StateCamera of the same names; 0 where none is known, as of a camera read from a file.
+struct StateCameraSigma
+{
+	double image_distance_mm = 0, focal_length_mm = 0, aperture_diameter_mm = 0, focus_distance_mm = 0;
+	double lens_tilt_deg = 0, tilt_direction_deg = 0, focal_plane_tilt_deg = 0;
+	double field_curvature_per_mm = 0, psf_floor_px = 0;
+	Point principal_point{};
+	Distortion distortion{};
+	Vec3<double> lens_centre_mm{ 0, 0, 0 };
+};
+
+struct StateCamera
+{
+	std::string state;                 ///< the state's name
+	std::string model;                 ///< "plane", .., "opencv" when imported
+	int width = 0, height = 0;
+	double pitch_mm = 0, image_distance_mm = 0;
+	Point principal_point{};
+	Distortion distortion{};           ///< about the lens axis
+	/// As reported: folded into (-90, 90], the tilt carries the sign (model/tilt_angles.h).
+	double lens_tilt_deg = 0, tilt_direction_deg = 0;
+	double focus_distance_mm = 0;      ///< U on the axis; infinite where it is that, or unknown
+	double aperture_diameter_mm = 0;   ///< d; 0 where it is unknown
+	double field_curvature_per_mm = 0;
+	// Effects that the calibration writes; empty or false: not.
+	bool natural_vignetting = false;
+	std::vector<TwoNumbers> rims_mm;   ///< R, Z of each
+	std::optional<TwoNumbers> lateral, axial_per_mm;   ///< red, blue
+	FixedBlades blades;                ///< the aperture's diameter is that of the circle through their corners
+	// What follows from these, or is not rendered. 0 in a camera that was read from a file.
+	double focal_length_mm = 0, focal_plane_tilt_deg = 0, psf_floor_px = 0;
+	Vec3<double> lens_centre_mm{ 0, 0, 0 };   ///< seen from the untilted state's, camera frame
+	StateCameraSigma sigma;
+
+	double ImageDistancePx() const { return image_distance_mm / pitch_mm; }
+	TILTCAL_API Vec3<double> LensNormal() const;
+	/// q, 1/mm: the plane of focus is { P : q.P = 1 }; of a bowl, the plane that touches it on the lens axis.
+	TILTCAL_API Vec3<double> PlaneOfFocus() const;
+	bool IsTilted() const { return lens_tilt_deg != 0; }
+	bool HasDistortion() const { return distortion != Distortion{}; }
+};
+
+/// Which of a calibration's two cameras: as the lens is, or the best one without distortion.
+enum class Distorted { YES, NO };
+
+/// The camera of a state, with the effects that the calibration chose.
+TILTCAL_API StateCamera CameraOfState(const Calibration& calibration, size_t state, Distorted distorted = Distorted::YES);
+
+/// Pixel where the camera sees P (camera frame, mm). None: P is not in front of the lens plane, or not before the sensor.
+TILTCAL_API std::optional<Point> Project(const StateCamera& camera, const Vec3<double>& P);
+
+/// Direction (z = 1 before the distortion is taken off; camera frame) of what the pixel sees through the lens centre.
+TILTCAL_API Vec3<double> Unproject(const StateCamera& camera, const Point& pixel);
+
+/// Diameter of the blur disc of a point on the sensor, px, to first order: w d |1/z - kappa|, kappa the inverse focus distance
+/// on the bowl (the paper's (2) with its plane of focus taken along the ray). Without the lens's own blur. z > 0.
+TILTCAL_API double BlurWidth(const StateCamera& camera, const Vec3<double>& P);
+
+/// Where a camera stands in a scene: scene units, unit vectors at right angles, left-handed.
+struct Place
+{
+	Vec3<double> location{ 0, 0, 0 }, right{ 1, 0, 0 }, up{ 0, 1, 0 }, forward{ 0, 0, 1 };
+};
+
+/// The camera as a `camera { tilt_lens { .. } .. }` block for the patched POV-Ray. `unit_mm`: millimetres to a scene unit. Expects
+/// TiltCal_Blur_Samples to be declared (the lens samples of a pixel).
+TILTCAL_API std::string CameraBlockOf(const StateCamera& camera, const Place& place, double unit_mm = 1);
+
+}
+
+#endif
