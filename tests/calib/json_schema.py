@@ -37,7 +37,7 @@ def place(error):
 
 
 def validate(schema, files):
-    faults = [f"{name}: {place(e)}: {e.message}" for name in files for e in validator(schema).iter_errors(read(name))]
+    faults = [f"{name}: {place(e)}: {e.message[:300]}" for name in files for e in validator(schema).iter_errors(read(name))]
     print(f"{len(files)} files, {len(faults)} faults")
     return faults
 
