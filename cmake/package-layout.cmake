@@ -25,14 +25,22 @@ file(RENAME "${private}/etc/povray/3.7" "${root}/etc/povray-tilt")
 file(CREATE_LINK /etc/povray-tilt "${private}/etc/povray/3.7" SYMBOLIC)
 file(RENAME "${private}/share/man/man1" "${root}/usr/share/man/man1")
 file(REMOVE_RECURSE "${private}/share/man")
+file(RENAME "${private}/share/tilt-lens" "${root}/usr/share/tilt-lens")
 
 # Upstream's sample configurations are no use to anybody: povray.ini there names folders of the distribution's package.
 file(REMOVE "${root}/usr/share/povray-tilt/ini/povray.ini")
 
 # Documents, laid out so that their links lead somewhere, and the scenes with their pictures as examples.
-file(COPY "${source}/README.md" DESTINATION "${doc}")
-file(COPY "${source}/povray-patch/REFERENCE.md" "${source}/povray-patch/COMING-FROM.md" "${source}/povray-patch/ray-error.png"
-	DESTINATION "${doc}/povray-patch")
+foreach(document README.md povray-patch/RENDERING.md povray-patch/REFERENCE.md povray-patch/ray-error.png povray-patch/LIMITS.md
+		povray-patch/COMING-FROM.md povray-patch/tiltcost/COSTS.md calib/CALIBRATING.md calib/CALIBRATION-JSON.md
+		tests/accuracy/ACCURACY.md)
+	get_filename_component(folder "${document}" DIRECTORY)
+	file(COPY "${source}/${document}" DESTINATION "${doc}/${folder}")
+endforeach()
+file(GLOB model "${source}/povray-patch/lens/MODEL*")
+file(COPY ${model} DESTINATION "${doc}/povray-patch/lens")
+file(MAKE_DIRECTORY "${doc}/calib/report")
+file(CREATE_LINK ../../../../tilt-lens/calibration.schema.json "${doc}/calib/report/calibration.schema.json" SYMBOLIC)
 file(CREATE_LINK povray-patch/REFERENCE.md "${doc}/REFERENCE.md" SYMBOLIC)
 file(CREATE_LINK povray-patch/COMING-FROM.md "${doc}/COMING-FROM.md" SYMBOLIC)
 file(COPY "${source}/scenes/" DESTINATION "${doc}/examples"

@@ -3,6 +3,7 @@
 // From pictures of grids of circles to the tilt of the lens.
 
 #include <tiltcal/calibrate.h>
+#include "base/files.h"
 #include "measure/measure_circles.h"
 #include "report/overlay.h"
 #include "thin_lens_picture.h"
@@ -105,6 +106,7 @@ void TiltIsFound(const Board& board, size_t photos)
 	// Two coordinates of 0.05 px at the most.
 	EXPECT_LT(c.geometry.rms, 0.07);
 	EXPECT_EQ(c.paper.failure, "");
+	WriteText(testing::TempDir() + NameOf(board.kind) + "-calibration.json", CalibrationJson(c));   // for calib.json_schema.effects
 	const nlohmann::json json = nlohmann::json::parse(CalibrationJson(c));
 	EXPECT_EQ(json["board"]["kind"], NameOf(board.kind));
 	EXPECT_EQ(json["board"]["circles"][0], board.columns);

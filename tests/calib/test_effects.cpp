@@ -352,8 +352,9 @@ TEST(Effects, ReachTheIncAndThePoseThroughTheJson)
 	// Files of earlier versions know one rim.
 	std::string old = CalibrationJson(c);
 	old.replace(old.find("\"rims\""), 6, "\"else\"");
-	WriteText(file, old);
-	EXPECT_EQ(ReadStateCamera(file, "state1").rims_mm, decltype(camera.rims_mm)(1, camera.rims_mm[0]));
+	const std::string old_file = testing::TempDir() + "old-calibration.json";
+	WriteText(old_file, old);
+	EXPECT_EQ(ReadStateCamera(old_file, "state1").rims_mm, decltype(camera.rims_mm)(1, camera.rims_mm[0]));
 	EXPECT_EQ((*camera.lateral)[0], c.chromatic.lateral[0].value);
 	EXPECT_EQ((*camera.axial_per_mm)[1], c.chromatic.axial_per_mm[1].value);
 	EXPECT_EQ(camera.blades.count, 8);

@@ -35,7 +35,8 @@ dpkg -L povray povray-includes | sort -u | while read -r path; do [ -d "$path" ]
 comm -12 ours theirs > both
 [ ! -s both ] || fail "files of the distribution's povray: $(cat both)"
 for file in /usr/bin/povray-tilt /usr/bin/tiltcal /usr/bin/tiltcost /etc/povray-tilt/povray.conf \
-	/usr/share/doc/povray-tilt/README.md /usr/share/doc/povray-tilt/REFERENCE.md /usr/share/doc/povray-tilt/copyright; do
+	/usr/share/doc/povray-tilt/README.md /usr/share/doc/povray-tilt/REFERENCE.md /usr/share/doc/povray-tilt/calib/CALIBRATING.md \
+	/usr/share/doc/povray-tilt/copyright /usr/share/tilt-lens/calibration.schema.json; do
 	grep -qx "$file" ours || fail "$file is not in the package"
 done
 
