@@ -7,7 +7,7 @@
 #include "measure/find_circles.h"
 #include "measure/measure_circles.h"
 #include "measure/spread_order.h"
-#include "thin_lens_picture.h"
+#include "support/thin_lens_picture.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
 #include <tiltcal/error.h>
+#include "base/temporary_folder.h"
 #include "picture/image_io.h"
 
 #include <ImfArray.h>
@@ -24,13 +25,7 @@ namespace fs = std::filesystem;
 class ImageIo : public testing::Test
 {
 protected:
-	void SetUp() override
-	{
-		folder = fs::path(testing::TempDir()) / ("tiltcal-images-" + std::to_string(::getpid()));
-		fs::create_directories(folder);
-	}
-	void TearDown() override { fs::remove_all(folder); }
-	std::string At(const std::string& name) const { return (folder / name).string(); }
+	std::string At(const std::string& name) const { return folder.File(name); }
 
 	ExitCode Code(const std::string& file) const
 	{
@@ -45,7 +40,7 @@ protected:
 		return EXIT_DONE;
 	}
 
-	fs::path folder;
+	const TemporaryFolder folder{ "tiltcal-images" };
 };
 
 cv::Mat Ramp(int type, double scale)
@@ -131,7 +126,7 @@ TEST_F(ImageIo, DamagedFilesAreRefused)
 	std::ofstream(At("text.png")) << "not a picture";
 	EXPECT_EQ(Code(At("text.png")), EXIT_FILE);
 	EXPECT_EQ(Code(At("missing.png")), EXIT_FILE);
-	EXPECT_EQ(Code(folder.string()), EXIT_FILE);
+	EXPECT_EQ(Code(folder.Path()), EXIT_FILE);
 }
 
 TEST(Transfer, RefusesNonsense)

@@ -3,13 +3,14 @@
 // Every kind of picture that is read, what is refused, and EXIF.
 
 #include <tiltcal/error.h>
+#include "base/temporary_folder.h"
 #include "model/priors.h"
 #include <tiltcal/photo.h>
 #include "calibrate/exif_check.h"
 #include "picture/image_io.h"
 #include "measure/measure.h"
 #include "picture/picture_file.h"
-#include "picture_seeds.h"
+#include "support/picture_seeds.h"
 
 #include <gmock/gmock.h>
 #include <opencv2/imgcodecs.hpp>
@@ -31,12 +32,9 @@ class PictureFormats : public testing::Test
 protected:
 	void SetUp() override
 	{
-		folder = fs::path(testing::TempDir()) / ("tiltcal-formats-" + std::to_string(::getpid()));
-		fs::create_directories(folder);
-		seeds = PictureSeeds(folder.string());
+		seeds = PictureSeeds(folder.Path());
 	}
-	void TearDown() override { fs::remove_all(folder); }
-	std::string At(const std::string& name) const { return (folder / name).string(); }
+	std::string At(const std::string& name) const { return folder.File(name); }
 	std::string Bytes(const std::string& name) const
 	{
 		for (const PictureSeed& seed : seeds)
@@ -68,7 +66,7 @@ protected:
 		}
 	}
 
-	fs::path folder;
+	const TemporaryFolder folder{ "tiltcal-formats" };
 	std::vector<PictureSeed> seeds;
 };
 

@@ -9,7 +9,7 @@
 //
 // Exit 0: RMS difference in linear RGB within the limits, 1: not, 2: wrong usage or a program failed.
 #include "pinholes.h"
-#include "run_povray.h"
+#include "support/run_povray.h"
 
 #include <cstdio>
 #include <exception>

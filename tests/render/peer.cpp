@@ -5,8 +5,8 @@
 //   peer CASE --stock POVRAY --ours POVRAY --scene oracle-scene.inc --work DIR
 //
 // Exit 0: alike within the case's limit, 1: not, 2: wrong usage or a program failed.
-#include "picture.h"
-#include "run_povray.h"
+#include "support/picture.h"
+#include "support/run_povray.h"
 
 #include <cstdio>
 #include <exception>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
-#include "synthetic_lens.h"
+#include "support/synthetic_lens.h"
 
 #include <Eigen/Geometry>
 
@@ -208,6 +208,21 @@ tiltcal::Task MakeTask(std::vector<tiltcal::State> states)
 	task.states = std::move(states);
 	return task;
 }
+
+Lens Tilted(double tilt, double direction)
+{
+	Lens lens;
+	lens.tilt = tilt;
+	lens.direction = direction;
+	return lens;
+}
+
+tiltcal::Task TwoStates(const Lens& untilted, const Lens& tilted, const Noise& noise, const Noise& noise_tilted)
+{
+	return MakeTask({ Photograph("untilted", untilted, noise), Photograph("tilted", tilted, noise_tilted) });
+}
+
+tiltcal::Task TwoStates(const Lens& untilted, const Lens& tilted, const Noise& noise) { return TwoStates(untilted, tilted, noise, noise); }
 
 double TiltError(const tiltcal::StateLens& found, const Lens& lens)
 {

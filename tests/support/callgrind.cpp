@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
-#include "callgrind.h"
-#include "race_process.h"
+#include "support/callgrind.h"
+#include "support/run_measured.h"
 
 #include <fstream>
 #include <stdexcept>

@@ -2,7 +2,7 @@
 
 #include "paper_approximations.h"
 
-#include "../calib/synthetic_lens.h"
+#include "support/synthetic_lens.h"
 #include "solve/blur_fit.h"
 #include "solve/solve_geometry.h"
 

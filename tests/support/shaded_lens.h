@@ -6,7 +6,7 @@
 #ifndef TILTCAL_SHADED_LENS_H
 #define TILTCAL_SHADED_LENS_H
 
-#include "synthetic_lens.h"
+#include "support/synthetic_lens.h"
 
 #include <vector>
 

@@ -25,6 +25,9 @@ struct Lens
 	double FocusDistance() const;
 };
 
+/// The same lens, tilted.
+Lens Tilted(double tilt, double direction = 0);
+
 struct Noise
 {
 	double corner = 0, blur = 0;           // px
@@ -42,6 +45,10 @@ std::vector<tiltcal::Pose> PosesOfPhotographs(int photos, double shift = 0);
 
 /// A task of the given states; the first is the untilted one.
 tiltcal::Task MakeTask(std::vector<tiltcal::State> states);
+
+/// The states untilted and tilted, of six photographs each.
+tiltcal::Task TwoStates(const Lens& untilted, const Lens& tilted, const Noise& noise = {});
+tiltcal::Task TwoStates(const Lens& untilted, const Lens& tilted, const Noise& noise, const Noise& noise_tilted);
 
 /// Length of the difference of the tilts as vectors, degrees: 2 at 90 is -2 at -90.
 double TiltError(const tiltcal::StateLens& found, const Lens& lens);

@@ -2,7 +2,7 @@
 
 #include "calibrator_runs.h"
 
-#include "../calib/synthetic_lens.h"
+#include "support/synthetic_lens.h"
 #include <tiltcal/error.h>
 #include "base/files.h"
 #include "picture/image_io.h"

@@ -52,6 +52,12 @@ Eigen::Vector2d PixelOf(const Scene& scene, double x, double y);
 /// Radius of the blur of a point (x, y) mm, px, across (nx, ny): half the width of what the lens's rim paints.
 double BlurRadius(const Scene& scene, double x, double y, double nx, double ny);
 
+/// Sets the plane of focus, by Gauss's equation along the lens's axis for three points of the sensor, `w` behind the lens: focal length `f`, mm.
+void FocusOn(Scene& scene, double w, double f);
+
+/// Unit normal of a lens tilted by `tilt` towards `direction`, degrees; y is down.
+Eigen::Vector3d LensNormal(double tilt, double direction);
+
 /// Points the camera at (x, y) mm of the board from `distance`, inclined by `incline` degrees about the picture's x axis turned
 /// by `direction`, the board turned by `turn` in the picture before.
 void Aim(Scene& scene, double x, double y, double distance, double incline, double direction, double turn);

@@ -5,10 +5,10 @@
 //   race_nothing --ours POVRAY --stock POVRAY --scenes DIR --out DIR --work DIR
 //
 // Exit 0: all within the limits, or --only-report; 1: not; 2: wrong usage or a program failed.
-#include "callgrind.h"
-#include "picture.h"
+#include "support/callgrind.h"
+#include "support/picture.h"
 #include "race_curve.h"
-#include "race_process.h"
+#include "support/run_measured.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

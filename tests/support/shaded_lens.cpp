@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
-#include "shaded_lens.h"
+#include "support/shaded_lens.h"
 
 #include "model/projection.h"
 #include <tiltcal/photo.h>

@@ -2,8 +2,8 @@
 //
 // Renders a race's scene with a setting, and keeps what need not be rendered twice.
 #pragma once
-#include "picture.h"
-#include "race_process.h"
+#include "support/picture.h"
+#include "support/run_measured.h"
 #include "race_setting.h"
 
 #include <functional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
-#include "picture_seeds.h"
+#include "support/picture_seeds.h"
 
 #include <tiltcal/photo.h>
 #include <ImfChannelList.h>

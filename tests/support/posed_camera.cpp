@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
-#include "posed_camera.h"
+#include "support/posed_camera.h"
 
 #include "camera/opencv_yaml.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
-#include "picture.h"
+#include "support/picture.h"
 
 #include <ImfArray.h>
 #include <ImfRgbaFile.h>

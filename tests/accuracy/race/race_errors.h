@@ -2,7 +2,7 @@
 //
 // Distances of pictures from a truth.
 #pragma once
-#include "picture.h"
+#include "support/picture.h"
 
 // mean((x - t)^2 / (t^2 + 0.01))
 double RelativeMse(const Picture& picture, const Picture& truth);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
-#include "thin_lens_picture.h"
+#include "support/thin_lens_picture.h"
 
 #include <Eigen/Geometry>
 #include <opencv2/imgproc.hpp>
@@ -156,6 +156,26 @@ double BlurRadius(const Scene& scene, double x, double y, double nx, double ny)
 		most = std::max(most, p.x() * nx + p.y() * ny);
 	}
 	return 0.5 * (most - least);
+}
+
+Eigen::Vector3d LensNormal(double tilt, double direction)
+{
+	const double t = tilt * M_PI / 180, phi = direction * M_PI / 180;
+	return { -std::sin(t) * std::sin(phi), std::sin(t) * std::cos(phi), std::cos(t) };
+}
+
+void FocusOn(Scene& scene, double w, double f)
+{
+	Eigen::Vector3d seen[3];
+	int k = 0;
+	for (const auto& [x, y] : { std::pair{ 0.0, 0.0 }, std::pair{ 10.0, 0.0 }, std::pair{ 0.0, 10.0 } })
+	{
+		const Eigen::Vector3d X(x, y, -w);
+		const double image = -X.dot(scene.lens_normal);
+		seen[k++] = -X * (1 / (1 / f - 1 / image) / image);
+	}
+	scene.focus_point = seen[0];
+	scene.focus_normal = (seen[1] - seen[0]).cross(seen[2] - seen[0]).normalized();
 }
 
 void Aim(Scene& scene, double x, double y, double distance, double incline, double direction, double turn)
