@@ -2,8 +2,8 @@
 
 #include <tiltcal/error.h>
 #include "base/files.h"
-#include "base/temporary_folder.h"
 #include "report/write_csv.h"
+#include "support/in_temporary_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -16,13 +16,10 @@ namespace
 using namespace tiltcal;
 namespace fs = std::filesystem;
 
-class Files : public testing::Test
+class Files : public InTemporaryFolder
 {
 protected:
-	std::string At(const std::string& name) const { return folder.File(name); }
 	void Touch(const std::string& name) const { std::ofstream(At(name)) << "x"; }
-
-	const TemporaryFolder folder{ "tiltcal-files" };
 };
 
 TEST_F(Files, GlobsCountNumbersAsNumbers)

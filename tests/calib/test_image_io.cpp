@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
 #include <tiltcal/error.h>
-#include "base/temporary_folder.h"
 #include "picture/image_io.h"
+#include "support/in_temporary_folder.h"
 
 #include <ImfArray.h>
 #include <ImfChannelList.h>
@@ -22,11 +22,9 @@ namespace
 using namespace tiltcal;
 namespace fs = std::filesystem;
 
-class ImageIo : public testing::Test
+class ImageIo : public InTemporaryFolder
 {
 protected:
-	std::string At(const std::string& name) const { return folder.File(name); }
-
 	ExitCode Code(const std::string& file) const
 	{
 		try
@@ -39,8 +37,6 @@ protected:
 		}
 		return EXIT_DONE;
 	}
-
-	const TemporaryFolder folder{ "tiltcal-images" };
 };
 
 cv::Mat Ramp(int type, double scale)

@@ -3,13 +3,13 @@
 // Every kind of picture that is read, what is refused, and EXIF.
 
 #include <tiltcal/error.h>
-#include "base/temporary_folder.h"
 #include "model/priors.h"
 #include <tiltcal/photo.h>
 #include "calibrate/exif_check.h"
 #include "picture/image_io.h"
 #include "measure/measure.h"
 #include "picture/picture_file.h"
+#include "support/in_temporary_folder.h"
 #include "support/picture_seeds.h"
 
 #include <gmock/gmock.h>
@@ -27,14 +27,10 @@ using namespace tiltcal;
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-class PictureFormats : public testing::Test
+class PictureFormats : public InTemporaryFolder
 {
 protected:
-	void SetUp() override
-	{
-		seeds = PictureSeeds(folder.Path());
-	}
-	std::string At(const std::string& name) const { return folder.File(name); }
+	void SetUp() override { seeds = PictureSeeds(folder.Path()); }
 	std::string Bytes(const std::string& name) const
 	{
 		for (const PictureSeed& seed : seeds)
@@ -66,7 +62,6 @@ protected:
 		}
 	}
 
-	const TemporaryFolder folder{ "tiltcal-formats" };
 	std::vector<PictureSeed> seeds;
 };
 

@@ -4,11 +4,11 @@
 // snap axis-parallel edges to whole pixels.
 
 #include "base/process.h"
-#include "base/temporary_folder.h"
 #include "measure/detect.h"
 #include <tiltcal/photo.h>
 #include <tiltcal/error.h>
 #include "target/target.h"
+#include "support/in_temporary_folder.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -31,13 +31,13 @@ const double DPI = 150;
 /// Page millimetres of a pixel whose centre is at integers.
 double Mm(double pixel) { return (pixel + 0.5) * 25.4 / DPI; }
 
-class Print : public testing::Test
+class Print : public InTemporaryFolder
 {
 protected:
 	/// Writes the page as PDF and reads what poppler makes of it.
 	cv::Mat Printed(const TargetPage& page)
 	{
-		const std::string pdf = folder.File("page.pdf"), png = folder.File("page");
+		const std::string pdf = At("page.pdf"), png = At("page");
 		WriteTarget(page, pdf);
 		const ProcessResult converted = RunProcess({ { "pdftocairo", "-r", fmt::format("{}", DPI), "-gray", "-png", "-singlefile", pdf, png } });
 		EXPECT_EQ(converted.exit_code, 0) << "pdftocairo (package poppler-utils): " << converted.said;
@@ -48,8 +48,6 @@ protected:
 		EXPECT_NEAR(picture.rows, page.height / 25.4 * DPI, 1);
 		return picture;
 	}
-
-	const TemporaryFolder folder{ "tiltcal-target" };
 };
 
 // A printer of 600 dpi places dots to 0.04 mm; the page is drawn to 0.001 mm, and what is measured
@@ -126,7 +124,7 @@ TEST_F(Print, CirclesAreWhereOpenCvFindsThem)
 
 TEST_F(Print, SvgIsInMillimetres)
 {
-	const std::string file = folder.File("page.svg");
+	const std::string file = At("page.svg");
 	WriteTarget(LayOut(MakeTarget(TargetKind::CHECKERBOARD, "12x9", 25, 0), "auto", 10), file);
 	std::ostringstream text;
 	text << std::ifstream(file).rdbuf();
@@ -137,7 +135,7 @@ TEST_F(Print, SvgIsInMillimetres)
 
 TEST_F(Print, UnwritableFileIsNamed)
 {
-	EXPECT_THROW(WriteTarget(LayOut(MakeTarget(TargetKind::CIRCLES, "7x6", 18, 0), "a4", 10), folder.File("nowhere/page.pdf")), Error);
+	EXPECT_THROW(WriteTarget(LayOut(MakeTarget(TargetKind::CIRCLES, "7x6", 18, 0), "a4", 10), At("nowhere/page.pdf")), Error);
 }
 
 std::string Refusal(const std::string& board, double square, const std::string& paper)

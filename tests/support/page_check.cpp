@@ -66,7 +66,8 @@ void Collect(const pugi::xml_node& element, Page& page)
 			Collect(child, page);
 		else if (found.name != "style")
 			page.text += child.value();
-	page.text += " ";
+	if (element.first_child())
+		page.text += " ";
 }
 
 }

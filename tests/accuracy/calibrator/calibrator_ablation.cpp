@@ -151,7 +151,7 @@ std::string Ablation(const std::vector<Line>& lines, double preparation, const s
 
 std::string Approximations()
 {
-	std::string html = "<h3>The paper's error taken apart</h3>\n<p>Lens tilt found from exact blur of an ideal thin lens tilted by 5 degrees, one board pose at a time (the poses of tests/calib/synthetic_lens.cpp): "
+	std::string html = "<h3>The paper's error taken apart</h3>\n<p>Lens tilt found from exact blur of an ideal thin lens tilted by 5 degrees, one board pose at a time (the poses of tests/support/synthetic_lens.cpp): "
 		"with both approximations of the paper's (4), with either mended, and with both.</p>\n<table><tr><th>pose</th><th>paper</th><th>depth taken along the ray</th>"
 		"<th>focus follows the lens equation</th><th>both</th></tr>\n";
 	double most = 0;

@@ -50,7 +50,7 @@ public:
 std::unique_ptr<Source> Photographs(const std::string& folder);
 
 /// A thin lens without aberrations and 0.06 px of noise per edge (0.03 per corner), by rays
-/// (tests/calib/synthetic_lens.h), six poses.
+/// (tests/support/synthetic_lens.h), six poses.
 std::unique_ptr<Source> ThinLens();
 
 /// Draw k of `draws` choices of `chosen` out of n, spread evenly over all choices.

@@ -70,7 +70,7 @@ try
 	app.add_option("--reference", programs.reference, "the patched povray that makes the truths (default: --ours); keep one while changing the other");
 	app.add_option("--stock", programs.stock, "an unpatched povray")->required();
 	app.add_option("--scenes", scenes, "folder of scenes")->required();
-	app.add_option("--settings", settings_file, "race_settings.json")->required();
+	app.add_option("--settings", settings_file, "race/settings.json")->required();
 	app.add_option("--scene", names, "race these alone; NAME or NAME-tilted");
 	app.add_option("--out", out, "folder of the report")->required();
 	app.add_option("--work", work, "folder of everything else; keeps references")->required();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 //
-// What is raced: opponents, their settings, and the scenes. Settings come from race_settings.json.
+// What is raced: opponents, their settings, and the scenes. Settings come from settings.json.
 #pragma once
 #include <filesystem>
 #include <string>
