@@ -10,7 +10,7 @@ packages="
 	zlib1g-dev libpng-dev libjpeg-dev libtiff-dev libopenexr-dev libexiv2-dev
 	libboost-thread-dev libboost-date-time-dev libboost-system-dev
 	libceres-dev libeigen3-dev libopencv-dev libcli11-dev nlohmann-json3-dev
-	libspdlog-dev libfmt-dev libgtest-dev libgmock-dev libbenchmark-dev
+	libspdlog-dev libfmt-dev libgtest-dev libgmock-dev libbenchmark-dev libpugixml-dev
 	pkg-config libcairo2-dev fonts-dejavu-core poppler-utils
 	gnuplot-nox povray povray-includes
 	dpkg-dev file man-db python3-jsonschema"
@@ -24,14 +24,14 @@ setup.sh knows apt only. Please install by your system's own names:
   zlib, libpng, libjpeg, libtiff, exiv2, OpenEXR 3, Boost (thread, date_time, system)
   Ceres Solver 2.1, Eigen 3, OpenCV 4, CLI11, nlohmann-json, spdlog, fmt,
   pkg-config, cairo, a sans-serif font, poppler's pdftoppm (for a test)
-  GoogleTest, Google Benchmark, gnuplot
+  GoogleTest, Google Benchmark, pugixml, gnuplot
   povray 3.7 (stock, the tests' oracle), man (for a test), Python 3 with jsonschema 4 (for a test), ccache (optional)
   Fedora: gcc-c++ cmake ninja-build patch autoconf automake zlib-devel libpng-devel libjpeg-turbo-devel
           libtiff-devel exiv2-devel openexr-devel boost-devel ceres-solver-devel eigen3-devel opencv-devel cli11-devel
-          json-devel spdlog-devel fmt-devel gtest-devel gmock-devel google-benchmark-devel gnuplot povray ccache
+          json-devel spdlog-devel fmt-devel gtest-devel gmock-devel google-benchmark-devel pugixml-devel gnuplot povray ccache
           pkgconf cairo-devel dejavu-sans-fonts poppler-utils python3-jsonschema
   Arch:   base-devel cmake ninja zlib libpng libjpeg-turbo libtiff exiv2 openexr boost ceres-solver eigen opencv
-          cli11 nlohmann-json spdlog fmt gtest benchmark gnuplot povray ccache pkgconf cairo ttf-dejavu poppler
+          cli11 nlohmann-json spdlog fmt gtest benchmark pugixml gnuplot povray ccache pkgconf cairo ttf-dejavu poppler
           python-jsonschema
   and the POV-Ray 3.7.0.10 source archive: cmake --preset release -DPOVRAY_SOURCE=/path/to/archive
 END

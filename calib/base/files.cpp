@@ -159,6 +159,12 @@ void WriteAtomically(const std::string& file, const std::function<bool(const std
 		fs::remove(temporary, code);
 		throw FileError(fmt::format("{}: cannot be written: {}", file, e.what()));
 	}
+	catch (...)
+	{
+		// An interrupt (process.h).
+		fs::remove(temporary, code);
+		throw;
+	}
 	if (written)
 		fs::rename(temporary, file, code);
 	if (!written || code)

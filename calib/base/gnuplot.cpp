@@ -4,12 +4,10 @@
 
 #include <tiltcal/error.h>
 #include "base/files.h"
+#include "base/process.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-
-#include <csignal>
-#include <cstdio>
 
 namespace tiltcal
 {
@@ -29,17 +27,11 @@ bool Plot(const std::string& file, const std::string& script, int width, int hei
 	{
 		WriteAtomically(file, [&](const std::string& temporary)
 		{
-			// A gnuplot that is not there closes the pipe at once.
-			const auto previous = std::signal(SIGPIPE, SIG_IGN);
-			FILE* pipe = popen("gnuplot 2>/dev/null >/dev/null", "w");
-			if (!pipe)
-				return false;
 			const std::string whole = fmt::format("set encoding utf8\nset terminal {} size {},{} font 'Sans,11' noenhanced\nset output {}\n{}\n",
 				svg ? "svg background 'white'" : "pngcairo", width, height, GnuplotString(temporary), script);
-			std::fwrite(whole.data(), 1, whole.size(), pipe);
-			const bool good = pclose(pipe) == 0;
-			std::signal(SIGPIPE, previous);
-			return good;
+			ProcessSetup gnuplot{{"gnuplot"}};
+			gnuplot.input = whole;
+			return RunProcess(gnuplot).exit_code == 0;
 		});
 		return true;
 	}

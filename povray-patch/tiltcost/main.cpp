@@ -86,12 +86,12 @@ void PredictDenoised(const Pilot& pilot, Report& report)
 void Run(const Options& options)
 {
 	CheckFiles(options);
-	CatchInterrupts();
+	tiltcal::CatchInterrupts();
 	Report report;
 	report.scene = options.job.scene;
 	report.stop_levels = options.stop_levels;
 	{
-		const TemporaryFolder folder;
+		const tiltcal::TemporaryFolder folder("tiltcost");
 		report.pilot = RunPilots(options.job, folder);
 	}
 	const Pilot pilot(report.pilot.blocks);
@@ -103,7 +103,7 @@ void Run(const Options& options)
 	progress.Begin("settings");
 	report.best = BestRows(pilot, report.pilot.machine, [&](double share)
 	{
-		CheckInterrupt();
+		tiltcal::CheckInterrupt();
 		progress.Show(fmt::format("{:.0f} %", 100 * share));
 	});
 	progress.End();
@@ -153,7 +153,7 @@ int main(int argc, char** argv)
 	{
 		return Fail(e.Code(), e.what());
 	}
-	catch (const Interrupted& e)
+	catch (const tiltcal::Interrupted& e)
 	{
 		fmt::print(stderr, "\ntiltcost: interrupted\n");
 		return 128 + e.signal;

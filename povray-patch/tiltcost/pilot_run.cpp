@@ -63,7 +63,7 @@ private:
 class PilotRenders
 {
 public:
-	PilotRenders(const Job& what, const TemporaryFolder& where) : job(what), folder(where) {}
+	PilotRenders(const Job& what, const tiltcal::TemporaryFolder& where) : job(what), folder(where) {}
 
 	PilotRun Run(const PilotPlan& plan, const std::string& title, int number);
 
@@ -72,7 +72,7 @@ private:
 	bool Watch(double seconds);
 
 	const Job& job;
-	const TemporaryFolder& folder;
+	const tiltcal::TemporaryFolder& folder;
 	std::unique_ptr<Growing> pilot, messages;
 	std::string last_message;
 	int done = 0, wanted = 0;
@@ -122,7 +122,8 @@ PilotRun PilotRenders::Run(const PilotPlan& plan, const std::string& title, int 
 	done = 0;
 	wanted = plan.blocks;
 	progress.Begin(title);
-	const ProcessResult result = RunProcess(Command(), fmt::format("{}={},{},{}", tilt_lens::PilotVariable, plan.blocks, plan.samples, file), log,
+	const tiltcal::ProcessResult result = tiltcal::RunProcess(
+		{Command(), "", {fmt::format("{}={},{},{}", tilt_lens::PilotVariable, plan.blocks, plan.samples, file)}, "", log},
 		[this](double seconds) { return Watch(seconds); });
 	progress.End();
 
@@ -131,7 +132,7 @@ PilotRun PilotRenders::Run(const PilotPlan& plan, const std::string& title, int 
 	run.log = ReadRenderLog(said);
 	if (result.exit_code == 126 || result.exit_code == 127)
 		throw tiltcal::FileError(fmt::format("{}: cannot be run; give the patched POV-Ray with --povray", job.povray));
-	if (result.exit_code != 0)
+	if (result.exit_code != 0 && !result.stopped)
 		throw tiltcal::Refused(fmt::format("POV-Ray does not render {}:\n{}", job.scene, ErrorLines(said)));
 	run.blocks = ParsePilot(Contents(file));
 	if (run.blocks.empty())
@@ -161,7 +162,7 @@ PilotPlan PlanPilot(double seconds_per_sample, int threads, double seconds, int 
 	return {std::min(12, most_blocks), 64};
 }
 
-PilotRun RunPilots(const Job& job, const TemporaryFolder& folder)
+PilotRun RunPilots(const Job& job, const tiltcal::TemporaryFolder& folder)
 {
 	PilotRenders renders(job, folder);
 	const PilotRun tiny = renders.Run(TinyPilot, "first pilot", 1);

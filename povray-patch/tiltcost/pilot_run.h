@@ -7,7 +7,8 @@
 #define TILTCOST_PILOT_RUN_H
 
 #include "pilot_file.h"
-#include "process.h"
+#include "base/process.h"
+#include "base/temporary_folder.h"
 #include "search.h"
 
 #include <string>
@@ -60,7 +61,7 @@ struct PilotRun
 
 /// Renders with progress on stderr. Throws tiltcal::Error where the scene does not render or has no
 /// tilt_lens with an aperture, and Interrupted.
-PilotRun RunPilots(const Job& job, const TemporaryFolder& folder);
+PilotRun RunPilots(const Job& job, const tiltcal::TemporaryFolder& folder);
 
 }
 

@@ -5,24 +5,11 @@
 # OUT receives calibration/ (with pose.inc and pose-points.png, the camera's place), render-<state>.exr and .png, side-by-side-<state>.png (photograph left), profile-<state>.png,
 # profiles/ (curves as CSV and numbers as JSON for every match) and summary.md. Any step that fails ends the demo.
 cmake_minimum_required(VERSION 3.25)
-foreach(name TILTCAL POVRAY EXR2PNG SCENE OUT)
-	if(NOT DEFINED ${name})
-		message(FATAL_ERROR "demo.cmake needs -D${name}=...")
-	endif()
-endforeach()
-if(NOT DEFINED SAMPLES)
-	set(SAMPLES 128)
-endif()
-
+include("${CMAKE_CURRENT_LIST_DIR}/../cmake/script.cmake")
+need(TILTCAL POVRAY EXR2PNG SCENE OUT)
+defaults(SAMPLES=128)
 include("${CMAKE_CURRENT_LIST_DIR}/steps.cmake")
 include("${CMAKE_CURRENT_LIST_DIR}/summary.cmake")
-string(TIMESTAMP started "%s" UTC)
-
-macro(step text)
-	string(TIMESTAMP now "%s" UTC)
-	math(EXPR seconds "${now} - ${started}")
-	message("[demo ${seconds} s] ${text}")
-endmacro()
 
 step("calibrating from 18 photographs of the board")
 calibrate_boxes("${OUT}/calibration")
@@ -49,9 +36,7 @@ foreach(state IN LISTS STATES)
 	# Side by side at one brightness: the photograph's exposure is the gain that was just fitted.
 	file(READ "${OUT}/profiles/${state}-gain.json" json)
 	string(JSON gain GET "${json}" shading coefficients 0)
-	execute_process(
-		COMMAND "${EXR2PNG}" "${render}.exr" "${render}.png" "${photo}" ${gain} "${OUT}/side-by-side-${state}.png"
-		COMMAND_ERROR_IS_FATAL ANY)
+	run(COMMAND "${EXR2PNG}" "${render}.exr" "${render}.png" "${photo}" ${gain} "${OUT}/side-by-side-${state}.png")
 endforeach()
 
 step("summary")

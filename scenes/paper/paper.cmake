@@ -7,38 +7,14 @@
 # PHOTOS: a folder with target/ and scene/ (PNG or JPEG) instead of scenes/boxes/photos. REUSE: steps whose result is there are
 # not run again; for whoever works on the page. Any step that fails ends the run. paper_run.h says what OUT receives.
 cmake_minimum_required(VERSION 3.25)
-foreach(name TILTCAL POVRAY EXR2PNG REPORT SCENES OUT)
-	if(NOT DEFINED ${name})
-		message(FATAL_ERROR "paper.cmake needs -D${name}=...")
-	endif()
-endforeach()
-foreach(pair SAMPLES=128 BOARD_SAMPLES=64 EFFECT_SAMPLES=32 CURVE=8,32,128,512 REUSE=0)
-	string(REGEX MATCH "([^=]*)=(.*)" ignored "${pair}")
-	if(NOT DEFINED ${CMAKE_MATCH_1})
-		set(${CMAKE_MATCH_1} "${CMAKE_MATCH_2}")
-	endif()
-endforeach()
+include("${CMAKE_CURRENT_LIST_DIR}/../cmake/script.cmake")
+need(TILTCAL POVRAY EXR2PNG REPORT SCENES OUT)
+defaults(SAMPLES=128 BOARD_SAMPLES=64 EFFECT_SAMPLES=32 CURVE=8,32,128,512 REUSE=0)
 string(REPLACE "," ";" CURVE "${CURVE}")
-set(BOARD --board 12x9 --square 25 --pitch 0.02)
 set(SCENE "${SCENES}/boxes")
 file(MAKE_DIRECTORY "${OUT}")
-file(WRITE "${OUT}/steps.txt" "")
-string(TIMESTAMP started "%s" UTC)
-set(step_started "${started}")
-set(step_text "")
-
-# step(TEXT): a line with the seconds so far; what the step before took goes to steps.txt.
-macro(step text)
-	string(TIMESTAMP now "%s" UTC)
-	if(NOT step_text STREQUAL "")
-		math(EXPR seconds "${now} - ${step_started}")
-		file(APPEND "${OUT}/steps.txt" "${seconds} ${step_text}\n")
-	endif()
-	math(EXPR seconds "${now} - ${started}")
-	message("[paper ${seconds} s] ${text}")
-	set(step_started "${now}")
-	set(step_text "${text}")
-endmacro()
+set(STEP_TIMES "${OUT}/steps.txt")
+file(WRITE "${STEP_TIMES}" "")
 
 # has(FILE RESULT): whether a step may be left out.
 function(has file result)
@@ -48,23 +24,12 @@ function(has file result)
 	endif()
 endfunction()
 
-# run(LOG COMMAND...): the command; what it says goes to LOG.
-function(run log)
-	get_filename_component(folder "${log}" DIRECTORY)
-	file(MAKE_DIRECTORY "${folder}")
-	execute_process(COMMAND ${ARGN} OUTPUT_FILE "${log}" ERROR_FILE "${log}" RESULT_VARIABLE failed)
-	if(failed)
-		file(READ "${log}" text)
-		message(FATAL_ERROR "${text}\n${ARGN}\nfailed (${log})")
-	endif()
-endfunction()
-
 # calibrate(OUT PHOTOGRAPHS SUFFIX OPTIONS...): of the photographs of the board in a folder.
 function(calibrate out photographs suffix)
 	has("${out}/calibration.json" there)
 	if(NOT there)
-		run("${out}/log.txt" "${TILTCAL}" calibrate ${BOARD} ${ARGN} --untilted "${photographs}/untilted-*.${suffix}"
-			--tilted "plus5=${photographs}/plus5-*.${suffix}" --tilted "minus5=${photographs}/minus5-*.${suffix}" --out "${out}")
+		calibrate_command(command "${photographs}" ${suffix} "${out}" ${ARGN})
+		run(LOG "${out}/log.txt" COMMAND ${command})
 	endif()
 endfunction()
 
@@ -75,8 +40,6 @@ function(render scene_file calibration state samples seed picture)
 	if(there)
 		return()
 	endif()
-	get_filename_component(scene_folder "${scene_file}" DIRECTORY)
-	list(FIND STATES ${state} number)
 	set(cameras "${calibration}")
 	if(seed)
 		set(cameras "${OUT}/seeded/${seed}")
@@ -92,8 +55,8 @@ function(render scene_file calibration state samples seed picture)
 		endforeach()
 	endif()
 	get_filename_component(folder "${picture}" DIRECTORY)
-	run("${picture}.txt" "${POVRAY}" "+I${scene_file}" "+L${scene_folder}" "+L${cameras}" +W1800 +H1200
-		Declare=State=${number} Declare=TiltCal_Blur_Samples=${samples} -D -A +FE "+O${folder}/part.exr" ${ARGN})
+	render_command(command "${scene_file}" "${cameras}" ${state} ${samples} "${folder}/part.exr" ${ARGN})
+	run(LOG "${picture}.txt" COMMAND ${command})
 	file(RENAME "${folder}/part.exr" "${picture}")
 endfunction()
 
@@ -104,8 +67,8 @@ endfunction()
 
 # compare(PHOTO RENDER FOLDER STATE MATCH): tiltcal profile on the two lines; the numbers in FOLDER/STATE-MATCH.json.
 function(compare photo picture folder state match)
-	run("${folder}/${state}-${match}/log.txt" "${TILTCAL}" profile "${photo}" "${picture}" --line ${RED_LINE} --line ${GREEN_LINE}
-		--match ${match} --json "${folder}/${state}-${match}.json" --out "${folder}/${state}-${match}")
+	compare_command(command "${photo}" "${picture}" ${match} "${folder}/${state}-${match}.json" "${folder}/${state}-${match}")
+	run(LOG "${folder}/${state}-${match}/log.txt" COMMAND ${command})
 endfunction()
 
 # boxes_against(PHOTOGRAPHS SUFFIX CALIBRATION SAMPLES SEED PICTURES PROFILES): all states through that camera, and Table 2's numbers with one gain.
@@ -121,7 +84,7 @@ function(photograph pictures like gain seed result)
 	has("${result}" there)
 	if(NOT there)
 		get_filename_component(folder "${result}" DIRECTORY)
-		run("${folder}/log.txt" "${REPORT}" photograph ${pictures} --like "${like}" --camera "${SCENES}/boxes/camera.json"
+		run(LOG "${folder}/log.txt" COMMAND "${REPORT}" photograph ${pictures} --like "${like}" --camera "${SCENES}/boxes/camera.json"
 			--gain ${gain} --seed ${seed} --out "${result}")
 	endif()
 endfunction()
@@ -221,7 +184,7 @@ boxes_against("${OUT}/noise" ${suffix} "${closed}/calibration" ${SAMPLES} 2 "${c
 step("what a thin lens cannot know: Table 2 with fewer effects, ${EFFECT_SAMPLES} samples a pixel")
 has("${OUT}/effects/shares.md" there)
 if(NOT there)
-	run("${OUT}/effects/log.txt" "${CMAKE_COMMAND}" "-DTILTCAL=${TILTCAL}" "-DPOVRAY=${POVRAY}" "-DSCENE=${SCENE}" "-DOUT=${OUT}/effects"
+	run(LOG "${OUT}/effects/log.txt" COMMAND "${CMAKE_COMMAND}" "-DTILTCAL=${TILTCAL}" "-DPOVRAY=${POVRAY}" "-DSCENE=${SCENE}" "-DOUT=${OUT}/effects"
 		-DSAMPLES=${EFFECT_SAMPLES} -P "${SCENES}/boxes/effect-shares.cmake")
 endif()
 
@@ -235,6 +198,4 @@ execute_process(COMMAND "${REPORT}" measure --out "${OUT}" --photos "${photos}" 
 	--samples ${SAMPLES} --board-samples ${BOARD_SAMPLES} --effect-samples ${EFFECT_SAMPLES} --curve ${curve} COMMAND_ERROR_IS_FATAL ANY)
 step("the page")
 execute_process(COMMAND "${REPORT}" page --out "${OUT}" COMMAND_ERROR_IS_FATAL ANY)
-string(TIMESTAMP now "%s" UTC)
-math(EXPR seconds "${now} - ${started}")
-message("[paper ${seconds} s] done: ${OUT}/report.html")
+say("done: ${OUT}/report.html")

@@ -5,13 +5,13 @@
 // A linear OpenEXR picture as an 8-bit sRGB PNG, clipped at 1 and nothing else; and, when asked, PHOTO on the left of
 // the same picture times GAIN. POV-Ray writes one format at a time: this saves the demo a second render.
 
-#include <ImfArray.h>
-#include <ImfRgbaFile.h>
+#include "base/transfer.h"
+#include "picture/image_io.h"
 
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -22,28 +22,13 @@
 namespace
 {
 
-// IEC 61966-2-1. A value that is no number counts as black.
-unsigned char Encode(float linear)
+cv::Mat Encoded(const cv::Mat& linear, float gain)
 {
-	const double value = linear > 0 ? std::min(double(linear), 1.0) : 0.0;
-	const double encoded = value <= 0.0031308 ? 12.92 * value : 1.055 * std::pow(value, 1 / 2.4) - 0.055;
-	return static_cast<unsigned char>(std::lround(255 * encoded));
-}
-
-cv::Mat ReadEncoded(const char* path, float gain)
-{
-	Imf::RgbaInputFile file(path);
-	const auto window = file.dataWindow();
-	const int width = window.max.x - window.min.x + 1, height = window.max.y - window.min.y + 1;
-	cv::Mat picture(height, width, CV_8UC3);
-	Imf::Array<Imf::Rgba> row(width);
-	for (int y = 0; y < height; ++y)
-	{
-		file.setFrameBuffer(&row[0] - window.min.x, 1, 0);
-		file.readPixels(window.min.y + y);
-		for (int x = 0; x < width; ++x)
-			picture.at<cv::Vec3b>(y, x) = cv::Vec3b(Encode(gain * row[x].b), Encode(gain * row[x].g), Encode(gain * row[x].r));
-	}
+	cv::Mat picture(linear.size(), CV_8UC3);
+	for (int y = 0; y < linear.rows; ++y)
+		for (int x = 0; x < linear.cols; ++x)
+			for (int c = 0; c < 3; ++c)
+				picture.at<cv::Vec3b>(y, x)[c] = static_cast<unsigned char>(std::lround(255 * tiltcal::EncodeSrgb(gain * linear.at<cv::Vec3f>(y, x)[c])));
 	return picture;
 }
 
@@ -63,10 +48,13 @@ try
 		std::fprintf(stderr, "usage: exr2png IN.exr OUT.png [PHOTO GAIN SIDE.png]\n");
 		return 2;
 	}
-	Write(argv[2], ReadEncoded(argv[1], 1));
+	cv::Mat linear = tiltcal::ReadLinear(argv[1], tiltcal::Transfer());
+	if (linear.channels() == 1)
+		cv::cvtColor(linear, linear, cv::COLOR_GRAY2BGR);
+	Write(argv[2], Encoded(linear, 1));
 	if (argc == 3)
 		return 0;
-	const cv::Mat photo = cv::imread(argv[3], cv::IMREAD_COLOR), render = ReadEncoded(argv[1], std::stof(argv[4]));
+	const cv::Mat photo = cv::imread(argv[3], cv::IMREAD_COLOR), render = Encoded(linear, std::stof(argv[4]));
 	if (photo.rows != render.rows)
 		throw std::runtime_error(std::string(argv[3]) + " is unreadable or of another height than the render");
 	cv::Mat side;

@@ -7,8 +7,8 @@
 //
 // Without --write the page's table must agree with what is counted; with it, times are taken too and the table is
 // written. Exit 0: all within the limits, 1: not, 2: wrong usage or a program failed.
-#include "callgrind.h"
-#include "race_process.h"
+#include "support/callgrind.h"
+#include "support/run_measured.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

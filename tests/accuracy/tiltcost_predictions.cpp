@@ -4,9 +4,8 @@
 // against a reference with other lens samples. Writes tiltcost.csv and tiltcost.html (a
 // fragment for the report) and fails when a prediction is out of bounds.
 
-#include "process.h"
-
-#include "../render/picture.h"
+#include "base/process.h"
+#include "support/picture.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -72,7 +71,7 @@ std::string Contents(const fs::path& file)
 
 double RunChecked(const std::vector<std::string>& command, const fs::path& log)
 {
-	const tiltcost::ProcessResult result = tiltcost::RunProcess(command, "LC_ALL=C", log.string(), [](double) { return true; });
+	const tiltcal::ProcessResult result = tiltcal::RunProcess({command, "", {"LC_ALL=C"}, "", log.string()});
 	if (result.exit_code != 0)
 		throw std::runtime_error(fmt::format("{} failed:\n{}", command[0], Contents(log)));
 	return result.cpu;

@@ -8,7 +8,7 @@
 #include "measure/detect.h"
 #include <tiltcal/error.h>
 #include "measure/measure.h"
-#include "thin_lens_picture.h"
+#include "support/thin_lens_picture.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <tiltcal/calibrate.h>
 #include "measure/detect.h"
 #include "measure/measure.h"
-#include "thin_lens_picture.h"
+#include "support/thin_lens_picture.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
@@ -22,21 +22,6 @@ using namespace synthetic;
 
 const double PITCH = 0.06, W = 800 * PITCH, F = 45;   // mm
 
-/// The plane of focus by Gauss's equation along the lens's axis, for three points of the sensor.
-void FocusOn(Scene& scene)
-{
-	Eigen::Vector3d seen[3];
-	int k = 0;
-	for (const auto& [x, y] : { std::pair{ 0.0, 0.0 }, std::pair{ 10.0, 0.0 }, std::pair{ 0.0, 10.0 } })
-	{
-		const Eigen::Vector3d X(x, y, -W);
-		const double image = -X.dot(scene.lens_normal);
-		seen[k++] = -X * (1 / (1 / F - 1 / image) / image);
-	}
-	scene.focus_point = seen[0];
-	scene.focus_normal = (seen[1] - seen[0]).cross(seen[2] - seen[0]).normalized();
-}
-
 State Photograph(const std::string& name, double tilt, const Board& board)
 {
 	State state;
@@ -49,8 +34,8 @@ State Photograph(const std::string& name, double tilt, const Board& board)
 		Scene scene;
 		scene.aperture = 32;
 		// y is down here: the front swings towards picture-down for a positive tilt at direction 0, up.
-		scene.lens_normal = Eigen::Vector3d(0, std::sin(tilt * M_PI / 180), std::cos(tilt * M_PI / 180));
-		FocusOn(scene);
+		scene.lens_normal = LensNormal(tilt, 0);
+		FocusOn(scene, W, F);
 		Aim(scene, 125, 87.5, pose.distance, pose.incline, pose.direction, 0);
 		scene.noise = 0.006;
 		scene.seed = unsigned(state.photos.size()) + 1;

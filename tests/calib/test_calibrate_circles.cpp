@@ -6,7 +6,7 @@
 #include "base/files.h"
 #include "measure/measure_circles.h"
 #include "report/overlay.h"
-#include "thin_lens_picture.h"
+#include "support/thin_lens_picture.h"
 #include "report/write_json.h"
 
 #include <gtest/gtest.h>
@@ -26,28 +26,6 @@ using namespace synthetic;
 const double PITCH = 0.06, W = 800 * PITCH, F = 45, D = 18;   // mm
 const double TILT = 5, DIRECTION = 35;                        // degrees
 
-/// Unit normal of a lens tilted by `tilt` towards DIRECTION; y is down.
-Eigen::Vector3d LensNormal(double tilt)
-{
-	const double t = tilt * M_PI / 180, phi = DIRECTION * M_PI / 180;
-	return { -std::sin(t) * std::sin(phi), std::sin(t) * std::cos(phi), std::cos(t) };
-}
-
-/// The plane of focus by Gauss's equation along the lens's axis, for three points of the sensor.
-void FocusOn(Scene& scene)
-{
-	Eigen::Vector3d seen[3];
-	int k = 0;
-	for (const auto& [x, y] : { std::pair{ 0.0, 0.0 }, std::pair{ 10.0, 0.0 }, std::pair{ 0.0, 10.0 } })
-	{
-		const Eigen::Vector3d X(x, y, -W);
-		const double image = -X.dot(scene.lens_normal);
-		seen[k++] = -X * (1 / (1 / F - 1 / image) / image);
-	}
-	scene.focus_point = seen[0];
-	scene.focus_normal = (seen[1] - seen[0]).cross(seen[2] - seen[0]).normalized();
-}
-
 State Photograph(const std::string& name, double tilt, const Board& board, size_t photos)
 {
 	State state;
@@ -61,8 +39,8 @@ State Photograph(const std::string& name, double tilt, const Board& board, size_
 		const auto& pose = poses[k];
 		Scene scene;
 		scene.aperture = D;
-		scene.lens_normal = LensNormal(tilt);
-		FocusOn(scene);
+		scene.lens_normal = LensNormal(tilt, DIRECTION);
+		FocusOn(scene, W, F);
 		Aim(scene, middle.x(), middle.y(), pose.distance, pose.incline, pose.direction, 4);
 		scene.noise = 0.006;
 		scene.seed = unsigned(state.photos.size()) + 1 + (tilt != 0 ? 10 : 0);

@@ -7,8 +7,8 @@
 #include "effects/effects.h"
 #include <tiltcal/error.h>
 #include "measure/measure.h"
-#include "shaded_lens.h"
-#include "thin_lens_picture.h"
+#include "support/shaded_lens.h"
+#include "support/thin_lens_picture.h"
 #include "effects/vignetting.h"
 
 #include <gmock/gmock.h>

@@ -7,7 +7,7 @@
 #include "measure/find_circles.h"
 #include "measure/measure_circles.h"
 #include "measure/spread_order.h"
-#include "thin_lens_picture.h"
+#include "support/thin_lens_picture.h"
 
 #include <gtest/gtest.h>
 
@@ -168,12 +168,18 @@ TEST(Circles, WhiteOnDarkVignettedAndSmall)
 	EXPECT_NE(Refusal(TakePicture(scene, dark), board).find("pixels across"), std::string::npos);
 }
 
+/// A picture of few lens points, good enough to find the grid in.
+cv::Mat Sketch(const Board& board)
+{
+	Scene scene = Inclined(board, 0.1, 20, 60);
+	scene.lens_points = 24;
+	return TakePicture(scene, PatternOf(board));
+}
+
 TEST(Circles, WrongGridsAreRefused)
 {
 	const Board board = Symmetric();
-	Scene scene = Inclined(board, 0.1, 20, 60);
-	scene.lens_points = 24;
-	const cv::Mat picture = TakePicture(scene, PatternOf(board));
+	const cv::Mat picture = Sketch(board);
 	ASSERT_EQ(Refusal(picture, board), "");
 	for (const auto& [columns, rows] : { std::pair{ 7, 6 }, std::pair{ 8, 7 } })
 		EXPECT_NE(Refusal(picture, Symmetric(columns, rows)), "") << columns << "x" << rows;
@@ -188,9 +194,7 @@ TEST(Circles, WrongGridsAreRefused)
 TEST(Circles, MirroredAsymmetricGridsAreRefused)
 {
 	const Board board = Asymmetric();
-	Scene scene = Inclined(board, 0.1, 20, 60);
-	scene.lens_points = 24;
-	const cv::Mat picture = TakePicture(scene, PatternOf(board));
+	const cv::Mat picture = Sketch(board);
 	EXPECT_EQ(Refusal(picture, board), "");
 	cv::Mat mirrored, turned;
 	cv::flip(picture, mirrored, 1);

@@ -6,7 +6,7 @@
 #include <tiltcal/calibrate.h>
 #include "model/priors.h"
 #include <tiltcal/error.h>
-#include "synthetic_lens.h"
+#include "support/synthetic_lens.h"
 #include "calibrate/verdict.h"
 
 #include <gmock/gmock.h>
@@ -19,22 +19,10 @@ namespace
 {
 
 using namespace tiltcal;
-using synthetic::Lens;
-using synthetic::MakeTask;
-using synthetic::Noise;
-using synthetic::Photograph;
-using synthetic::TiltError;
+using namespace synthetic;
 using testing::HasSubstr;
 
 const Noise NOISE{ 0.03, 0.06, 5 };
-
-Lens Tilted(double tilt, double direction = 0)
-{
-	Lens lens;
-	lens.tilt = tilt;
-	lens.direction = direction;
-	return lens;
-}
 
 /// Refused with advice, or right within what it says of itself.
 void ExpectNoConfidentError(const Task& task, const Lens& lens, const std::string& model = "auto")
@@ -68,7 +56,7 @@ TEST(Degenerate, BlurWithNoSignChange)
 TEST(Degenerate, TiltedBoardsAllParallelToTheSensor)
 {
 	const Lens tilted = Tilted(4, 50);
-	ExpectNoConfidentError(MakeTask({ Photograph("untilted", Lens(), NOISE), synthetic::PhotographParallel("tilted", tilted, 600) }), tilted, "plane");
+	ExpectNoConfidentError(MakeTask({ Photograph("untilted", Lens(), NOISE), PhotographParallel("tilted", tilted, 600) }), tilted, "plane");
 }
 
 TEST(Degenerate, OnePhotographOfAState)
@@ -84,7 +72,7 @@ TEST(Degenerate, OnePhotographOfAState)
 
 TEST(Degenerate, NoTiltIsFoundToBeNone)
 {
-	const Calibration c = Calibrate(MakeTask({ Photograph("untilted", Lens(), NOISE), Photograph("tilted", Lens(), { 0.03, 0.06, 6 }) }), "plane", Poses::AUTO);
+	const Calibration c = Calibrate(TwoStates({}, {}, NOISE, { 0.03, 0.06, 6 }), "plane", Poses::AUTO);
 	EXPECT_LT(std::abs(c.solution.states[1].lens_tilt.value), 4 * c.solution.states[1].lens_tilt.sigma + 0.003);
 }
 
@@ -92,7 +80,7 @@ TEST(Degenerate, AWrongSquareSizeScalesLengthsButNotAngles)
 {
 	// Nothing in the pictures tells a board's size; the focal length does, and may be given.
 	const Lens tilted = Tilted(5, 20);
-	Task task = MakeTask({ Photograph("untilted", Lens(), NOISE), Photograph("tilted", tilted, NOISE) });
+	Task task = TwoStates({}, tilted, NOISE);
 	task.board.square_mm *= 1.1;
 	const Calibration c = Calibrate(task, "plane", Poses::AUTO);
 	EXPECT_NEAR(c.solution.w_mm.value, tilted.w, 0.05);
@@ -108,7 +96,7 @@ TEST(Degenerate, AWrongSquareSizeScalesLengthsButNotAngles)
 TEST(Degenerate, ANoisyLensIsSaidToBe)
 {
 	const Lens tilted = Tilted(5);
-	const Calibration c = Calibrate(MakeTask({ Photograph("untilted", Lens(), { 0.5, 1.5, 2 }), Photograph("tilted", tilted, { 0.5, 1.5, 3 }) }), "plane", Poses::AUTO);
+	const Calibration c = Calibrate(TwoStates({}, tilted, { 0.5, 1.5, 2 }, { 0.5, 1.5, 3 }), "plane", Poses::AUTO);
 	EXPECT_LT(TiltError(c.solution.states[1], tilted), 4 * c.solution.states[1].lens_tilt.sigma + 4 * c.solution.states[1].tilt_direction.sigma * 0.0873);
 	EXPECT_NE(Judge(c).grade, Grade::GOOD);
 }

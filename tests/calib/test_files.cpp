@@ -3,6 +3,7 @@
 #include <tiltcal/error.h>
 #include "base/files.h"
 #include "report/write_csv.h"
+#include "support/in_temporary_folder.h"
 
 #include <gtest/gtest.h>
 
@@ -15,19 +16,10 @@ namespace
 using namespace tiltcal;
 namespace fs = std::filesystem;
 
-class Files : public testing::Test
+class Files : public InTemporaryFolder
 {
 protected:
-	void SetUp() override
-	{
-		folder = fs::path(testing::TempDir()) / ("tiltcal-files-" + std::to_string(::getpid()));
-		fs::create_directories(folder);
-	}
-	void TearDown() override { fs::remove_all(folder); }
-	std::string At(const std::string& name) const { return (folder / name).string(); }
 	void Touch(const std::string& name) const { std::ofstream(At(name)) << "x"; }
-
-	fs::path folder;
 };
 
 TEST_F(Files, GlobsCountNumbersAsNumbers)
@@ -65,7 +57,7 @@ TEST_F(Files, AFailedWriteLeavesTheOldFileAlone)
 	std::string text;
 	std::ifstream(At("result.txt")) >> text;
 	EXPECT_EQ(text, "old");
-	EXPECT_EQ(std::distance(fs::directory_iterator(folder), fs::directory_iterator()), 1);
+	EXPECT_EQ(std::distance(fs::directory_iterator(folder.Path()), fs::directory_iterator()), 1);
 }
 
 TEST(Csv, QuotesWhatNeedsIt)

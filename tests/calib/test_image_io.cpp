@@ -2,6 +2,7 @@
 
 #include <tiltcal/error.h>
 #include "picture/image_io.h"
+#include "support/in_temporary_folder.h"
 
 #include <ImfArray.h>
 #include <ImfChannelList.h>
@@ -21,17 +22,9 @@ namespace
 using namespace tiltcal;
 namespace fs = std::filesystem;
 
-class ImageIo : public testing::Test
+class ImageIo : public InTemporaryFolder
 {
 protected:
-	void SetUp() override
-	{
-		folder = fs::path(testing::TempDir()) / ("tiltcal-images-" + std::to_string(::getpid()));
-		fs::create_directories(folder);
-	}
-	void TearDown() override { fs::remove_all(folder); }
-	std::string At(const std::string& name) const { return (folder / name).string(); }
-
 	ExitCode Code(const std::string& file) const
 	{
 		try
@@ -44,8 +37,6 @@ protected:
 		}
 		return EXIT_DONE;
 	}
-
-	fs::path folder;
 };
 
 cv::Mat Ramp(int type, double scale)
@@ -131,7 +122,7 @@ TEST_F(ImageIo, DamagedFilesAreRefused)
 	std::ofstream(At("text.png")) << "not a picture";
 	EXPECT_EQ(Code(At("text.png")), EXIT_FILE);
 	EXPECT_EQ(Code(At("missing.png")), EXIT_FILE);
-	EXPECT_EQ(Code(folder.string()), EXIT_FILE);
+	EXPECT_EQ(Code(folder.Path()), EXIT_FILE);
 }
 
 TEST(Transfer, RefusesNonsense)

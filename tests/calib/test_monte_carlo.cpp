@@ -5,7 +5,7 @@
 
 #include <tiltcal/calibrate.h>
 #include "solve/solve_joint.h"
-#include "synthetic_lens.h"
+#include "support/synthetic_lens.h"
 
 #include <gtest/gtest.h>
 
@@ -16,20 +16,15 @@ namespace
 {
 
 using namespace tiltcal;
-using synthetic::Lens;
-using synthetic::MakeTask;
-using synthetic::Noise;
-using synthetic::Photograph;
+using namespace synthetic;
 
 const int SETS = 200;
 
 Lens TheLens(double tilt)
 {
-	Lens lens;
+	Lens lens = Tilted(tilt, 30);
 	lens.curvature = -0.0006;
 	lens.floor = 0.8;
-	lens.tilt = tilt;
-	lens.direction = 30;
 	return lens;
 }
 
@@ -87,7 +82,7 @@ TEST(MonteCarlo, TrueValuesAreInsideTwoSigmaAsOftenAsTheyShould)
 		EXPECT_LE(n, SETS * 99 / 100) << name;
 	}
 	// And what the sets are compared with is the lens.
-	EXPECT_LT(synthetic::TiltError(exact.solution.states[1], TheLens(5)), 0.003);
+	EXPECT_LT(TiltError(exact.solution.states[1], TheLens(5)), 0.003);
 	EXPECT_NEAR(Direction(exact.solution.states[1].tilt_direction.value), Direction(30), 0.001);
 }
 

@@ -3,26 +3,23 @@
 // Cameras to OpenCV and back. The oracle is cv::projectPoints, with its own tilted sensor.
 
 #include <tiltcal/error.h>
+#include "base/temporary_folder.h"
 #include "model/projection.h"
 #include "camera/opencv_yaml.h"
-#include "posed_camera.h"
+#include "support/posed_camera.h"
 
 #include <Eigen/LU>
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <opencv2/calib3d.hpp>
-#include <unistd.h>
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 
 namespace
 {
 
 using namespace tiltcal;
-namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 StateCamera MakeCamera(double tilt, double direction)
@@ -66,11 +63,11 @@ TEST_P(Tilts, ProjectAsOpenCvDoes)
 TEST_P(Tilts, ComeBackFromTheFile)
 {
 	const StateCamera c = MakeCamera(GetParam().first, GetParam().second);
-	const std::string file = (fs::path(testing::TempDir()) / fmt::format("tiltcal-opencv-{}.yml", ::getpid())).string();
+	const TemporaryFolder folder("tiltcal-opencv");
+	const std::string file = folder.File("camera.yml");
 	WriteOpenCv(c, file);
 	double lost = -1;
 	const StateCamera back = ReadOpenCv(file, c.pitch_mm, "state", lost);
-	fs::remove(file);
 	// The file holds 17 digits; 1e-12 relative leaves room for the turns there and back.
 	const auto same = [](double a, double b) { return std::abs(a - b) <= 1e-12 * std::max(std::abs(a), std::abs(b)); };
 	EXPECT_TRUE(same(back.image_distance_mm, c.image_distance_mm)) << back.image_distance_mm;
@@ -94,9 +91,6 @@ INSTANTIATE_TEST_SUITE_P(Directions, Tilts, testing::Values(std::pair{ 0.0, 0.0 
 class Import : public testing::Test
 {
 protected:
-	void SetUp() override { file = (fs::path(testing::TempDir()) / fmt::format("tiltcal-import-{}.yml", ::getpid())).string(); }
-	void TearDown() override { fs::remove(file); }
-
 	/// Writes as OpenCV's calibration sample does.
 	void Write(const cv::Matx33d& matrix, const std::vector<double>& coefficients, bool size = true)
 	{
@@ -119,7 +113,8 @@ protected:
 		return "accepted";
 	}
 
-	std::string file;
+	const TemporaryFolder folder{ "tiltcal-import" };
+	const std::string file = folder.File("camera.yml");
 	const cv::Matx33d K{ 2400, 0, 900, 0, 2400, 600, 0, 0, 1 };
 };
 
@@ -166,10 +161,10 @@ TEST_F(Import, RefusesWhatTiltLensHasNot)
 TEST(StateCamera, ComesBackFromJson)
 {
 	const StateCamera c = MakeCamera(-8, 65);
-	const std::string file = (fs::path(testing::TempDir()) / fmt::format("tiltcal-state-{}.json", ::getpid())).string();
+	const TemporaryFolder folder("tiltcal-state");
+	const std::string file = folder.File("state.json");
 	std::ofstream(file) << StateCameraJson(c, "test");
 	const StateCamera back = ReadStateCamera(file, "state");
-	fs::remove(file);
 	EXPECT_EQ(back.image_distance_mm, c.image_distance_mm);
 	EXPECT_EQ(back.distortion, c.distortion);
 	EXPECT_EQ(back.principal_point, c.principal_point);

@@ -3,7 +3,7 @@
 // What `tiltcal calibrate` wrote for the photographs in scenes/boxes/photos (the fixture
 // calib.photographs.calibrate ran it): the acceptance numbers of issue 2.
 
-#include "page_check.h"
+#include "support/page_check.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -9,7 +9,8 @@
 #include "picture/image_io.h"
 #include "measure/measure.h"
 #include "picture/picture_file.h"
-#include "picture_seeds.h"
+#include "support/in_temporary_folder.h"
+#include "support/picture_seeds.h"
 
 #include <gmock/gmock.h>
 #include <opencv2/imgcodecs.hpp>
@@ -26,17 +27,10 @@ using namespace tiltcal;
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-class PictureFormats : public testing::Test
+class PictureFormats : public InTemporaryFolder
 {
 protected:
-	void SetUp() override
-	{
-		folder = fs::path(testing::TempDir()) / ("tiltcal-formats-" + std::to_string(::getpid()));
-		fs::create_directories(folder);
-		seeds = PictureSeeds(folder.string());
-	}
-	void TearDown() override { fs::remove_all(folder); }
-	std::string At(const std::string& name) const { return (folder / name).string(); }
+	void SetUp() override { seeds = PictureSeeds(folder.Path()); }
 	std::string Bytes(const std::string& name) const
 	{
 		for (const PictureSeed& seed : seeds)
@@ -68,7 +62,6 @@ protected:
 		}
 	}
 
-	fs::path folder;
 	std::vector<PictureSeed> seeds;
 };
 

@@ -3,17 +3,15 @@
 // Poses from points that cv::projectPoints put into the picture.
 
 #include <tiltcal/error.h>
+#include "base/temporary_folder.h"
 #include "camera/pose.h"
-#include "posed_camera.h"
+#include "support/posed_camera.h"
 
 #include <Eigen/Geometry>
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <filesystem>
 #include <fstream>
 #include <random>
 
@@ -214,8 +212,6 @@ TEST(Pose, SaysWhenAPlaneLeavesTwoCameras)
 class Points : public testing::Test
 {
 protected:
-	void SetUp() override { file = (std::filesystem::path(testing::TempDir()) / fmt::format("tiltcal-points-{}.csv", ::getpid())).string(); }
-	void TearDown() override { std::filesystem::remove(file); }
 	std::string Refusal(const std::string& text)
 	{
 		std::ofstream(file, std::ios::binary) << text;
@@ -230,7 +226,8 @@ protected:
 		}
 		return "accepted";
 	}
-	std::string file;
+	const TemporaryFolder folder{ "tiltcal-points" };
+	const std::string file = folder.File("points.csv");
 };
 
 TEST_F(Points, AreReadWithTheirLines)

@@ -5,7 +5,7 @@
 #include <tiltcal/error.h>
 #include "measure/find_crossing.h"
 #include "camera/pose_photo.h"
-#include "posed_camera.h"
+#include "support/posed_camera.h"
 
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>

@@ -4,10 +4,10 @@
 
 #include <tiltcal/calibrate.h>
 #include "report/html.h"
-#include "page_check.h"
+#include "support/page_check.h"
 #include "report/report_html.h"
 #include "report/report_scene.h"
-#include "synthetic_lens.h"
+#include "support/synthetic_lens.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -22,6 +22,7 @@ namespace
 using namespace tiltcal;
 using synthetic::Lens;
 using synthetic::Noise;
+using synthetic::Tilted;
 using testing::HasSubstr;
 
 const char* const SPECIAL = "<b>&'\".png";
@@ -42,14 +43,6 @@ Calibration CalibrationOf(const Lens& tilted, const std::string& model, int phot
 {
 	const Noise noise{ 0.03, 0.06, 3 };
 	return Calibrate(synthetic::MakeTask({ Named(synthetic::Photograph("untilted", {}, noise, photos)), Named(synthetic::Photograph("tilted", tilted, noise, photos)) }), model, Poses::AUTO);
-}
-
-Lens Tilted(double tilt, double direction)
-{
-	Lens lens;
-	lens.tilt = tilt;
-	lens.direction = direction;
-	return lens;
 }
 
 std::string PageOf(const Calibration& c)

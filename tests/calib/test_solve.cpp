@@ -7,7 +7,7 @@
 #include <tiltcal/error.h>
 #include "solve/solve_lens.h"
 #include "solve/solve_geometry.h"
-#include "synthetic_lens.h"
+#include "support/synthetic_lens.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,11 +18,7 @@ namespace
 {
 
 using namespace tiltcal;
-using synthetic::Lens;
-using synthetic::MakeTask;
-using synthetic::Noise;
-using synthetic::Photograph;
-using synthetic::TiltError;
+using namespace synthetic;
 
 struct Case
 {
@@ -33,11 +29,9 @@ class EveryTilt : public testing::TestWithParam<Case> {};
 
 TEST_P(EveryTilt, ComesBackWithoutNoise)
 {
-	Lens untilted, tilted;
-	tilted.tilt = GetParam().tilt;
-	tilted.direction = GetParam().direction;
+	Lens untilted, tilted = Tilted(GetParam().tilt, GetParam().direction);
 	tilted.cy += 5;    // a real lens's picture moves when it is tilted
-	const Calibration c = Calibrate(MakeTask({ Photograph("untilted", untilted, {}), Photograph("tilted", tilted, {}) }), "plane", Poses::AUTO);
+	const Calibration c = Calibrate(TwoStates(untilted, tilted), "plane", Poses::AUTO);
 	const Solution& s = c.solution;
 	// Corners are exact, so w is: only the solver's tolerance is left.
 	EXPECT_NEAR(s.w_mm.value, untilted.w, 1e-3);
@@ -56,12 +50,9 @@ INSTANTIATE_TEST_SUITE_P(Tilts, EveryTilt, testing::Values(Case{ 0, 0 }, Case{ 5
 
 TEST(SolvePlane, NoiseComesOutAsSigma)
 {
-	Lens untilted, tilted;
+	Lens untilted, tilted = Tilted(5, 30);
 	untilted.floor = tilted.floor = 1;
-	tilted.tilt = 5;
-	tilted.direction = 30;
-	const Noise noise{ 0.03, 0.06, 11 };
-	const Calibration c = Calibrate(MakeTask({ Photograph("untilted", untilted, noise), Photograph("tilted", tilted, noise) }), "plane", Poses::AUTO);
+	const Calibration c = Calibrate(TwoStates(untilted, tilted, { 0.03, 0.06, 11 }), "plane", Poses::AUTO);
 	const StateLens& lens = c.solution.states[1];
 	// DESIGN.md section 5: some thousandths of a degree for six photographs with 0.06 px per edge.
 	EXPECT_LT(lens.lens_tilt.sigma, 0.01);
@@ -75,9 +66,7 @@ TEST(SolvePlane, NoiseComesOutAsSigma)
 
 TEST(SolvePlane, OneOutlierInTenDoesNotMoveIt)
 {
-	Lens untilted, tilted;
-	tilted.tilt = 5;
-	Task task = MakeTask({ Photograph("untilted", untilted, { 0.02, 0.05, 3 }), Photograph("tilted", tilted, { 0.02, 0.05, 4 }) });
+	Task task = TwoStates({}, Tilted(5), { 0.02, 0.05, 3 }, { 0.02, 0.05, 4 });
 	int k = 0;
 	for (State& state : task.states)
 		for (Photo& photo : state.photos)
@@ -91,19 +80,14 @@ TEST(SolvePlane, OneOutlierInTenDoesNotMoveIt)
 
 TEST(SolvePlane, OwnPosesWhenTheBoardsMoved)
 {
-	Lens untilted, tilted;
-	tilted.tilt = -4;
-	const Calibration c = Calibrate(MakeTask({ Photograph("untilted", untilted, {}), Photograph("tilted", tilted, {}, 6, 15) }), "plane", Poses::AUTO);
+	const Calibration c = Calibrate(MakeTask({ Photograph("untilted", {}, {}), Photograph("tilted", Tilted(-4), {}, 6, 15) }), "plane", Poses::AUTO);
 	EXPECT_FALSE(c.geometry.shared_poses);
 	EXPECT_NEAR(c.solution.states[1].lens_tilt.value, -4, 0.03);
 }
 
 TEST(SolvePlane, SharedPosesAreSeen)
 {
-	Lens untilted, tilted;
-	tilted.tilt = -4;
-	const Noise noise{ 0.03, 0.05, 5 };
-	EXPECT_TRUE(Calibrate(MakeTask({ Photograph("untilted", untilted, noise), Photograph("tilted", tilted, noise) }), "plane", Poses::AUTO).geometry.shared_poses);
+	EXPECT_TRUE(Calibrate(TwoStates({}, Tilted(-4), { 0.03, 0.05, 5 }), "plane", Poses::AUTO).geometry.shared_poses);
 }
 
 TEST(SolvePaper, StageOneIsExactUntilted)
@@ -127,9 +111,7 @@ TEST(SolvePaper, StageTwoFindsTheSignAndASizeNearIt)
 	// (4) is an approximation: DESIGN.md section 2 found 2.5 to 5.5 for a true 5.
 	for (const double tilt : { 5.0, -5.0 })
 	{
-		Lens untilted, tilted;
-		tilted.tilt = tilt;
-		const Task task = MakeTask({ Photograph("untilted", untilted, {}), Photograph("tilted", tilted, {}) });
+		const Task task = TwoStates({}, Tilted(tilt));
 		Geometry found;
 		const Solution s = SolvePaper(task, SolveGeometry(task, {}), found);
 		ASSERT_EQ(s.failure, "");
@@ -145,10 +127,8 @@ TEST(SolvePaper, StageTwoFindsTheSignAndASizeNearIt)
 TEST(SolvePlane, OneTiltedPhotographIsNotMistakenForItsMirrorImage)
 {
 	// |1 - q.P| of one board fits two planes of focus exactly; the focal length decides.
-	Lens untilted, tilted;
-	tilted.tilt = 5;
 	const Noise noise{ 0.02, 0.05, 8 };
-	const Calibration c = Calibrate(MakeTask({ Photograph("untilted", untilted, noise), Photograph("tilted", tilted, noise, 1) }), "plane", Poses::AUTO);
+	const Calibration c = Calibrate(MakeTask({ Photograph("untilted", {}, noise), Photograph("tilted", Tilted(5), noise, 1) }), "plane", Poses::AUTO);
 	// The one board's own pose is known to 0.1 degrees or so, and the tilt no better.
 	EXPECT_NEAR(c.solution.states[1].lens_tilt.value, 5, 0.2);
 }
@@ -170,7 +150,7 @@ std::string Refusal(const Task& task, const std::string& model = "plane")
 
 TEST(Refuses, BoardParallelToTheSensor)
 {
-	EXPECT_THAT(Refusal(MakeTask({ synthetic::PhotographParallel("untilted", {}, 600) })), testing::HasSubstr("inclined"));
+	EXPECT_THAT(Refusal(MakeTask({ PhotographParallel("untilted", {}, 600) })), testing::HasSubstr("inclined"));
 }
 
 TEST(Refuses, EverythingInFocus)

@@ -5,7 +5,7 @@
 
 #include <tiltcal/calibrate.h>
 #include "solve/solve_lens.h"
-#include "synthetic_lens.h"
+#include "support/synthetic_lens.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,21 +16,15 @@ namespace
 {
 
 using namespace tiltcal;
-using synthetic::Lens;
-using synthetic::MakeTask;
-using synthetic::Noise;
-using synthetic::Photograph;
-using synthetic::TiltError;
+using namespace synthetic;
 
 Task Photographs(double curvature, double tilt, double direction, const Noise& noise)
 {
-	Lens untilted, tilted;
+	Lens untilted, tilted = Tilted(tilt, direction);
 	untilted.curvature = tilted.curvature = curvature;
-	tilted.tilt = tilt;
-	tilted.direction = direction;
 	Noise other = noise;
 	other.seed += 1;
-	return MakeTask({ Photograph("untilted", untilted, noise), Photograph("tilted", tilted, other) });
+	return TwoStates(untilted, tilted, noise, other);
 }
 
 struct Case
@@ -44,12 +38,9 @@ TEST_P(Bowl, ComesBackWithoutNoise)
 {
 	const Case& k = GetParam();
 	const Calibration c = Calibrate(Photographs(k.curvature, k.tilt, k.direction, {}), "curved", Poses::AUTO);
-	Lens lens;
-	lens.tilt = k.tilt;
-	lens.direction = k.direction;
 	EXPECT_EQ(c.solution.model, "curved");
 	// As for the plane (test_solve.cpp), what is of second order in the aperture is left out.
-	EXPECT_LT(TiltError(c.solution.states[1], lens), 0.003);
+	EXPECT_LT(TiltError(c.solution.states[1], Tilted(k.tilt, k.direction)), 0.003);
 	EXPECT_NEAR(c.solution.field_curvature.value, k.curvature, 0.002 * std::abs(k.curvature) + 1e-6);
 	EXPECT_NEAR(c.solution.states[0].focus_distance.value, Lens().FocusDistance(), 0.2);
 	EXPECT_LT(c.solution.rms_blur, 0.01);
@@ -62,8 +53,7 @@ TEST(SolveCurved, PlaneTakesTheBowlForTilt)
 {
 	// DESIGN.md section 2: why the model is there.
 	const Task task = Photographs(-0.001, 5, 0, { 0.03, 0.06, 3 });
-	Lens lens;
-	lens.tilt = 5;
+	const Lens lens = Tilted(5);
 	EXPECT_GT(TiltError(Calibrate(task, "plane", Poses::AUTO).solution.states[1], lens), 0.2);
 	const Calibration c = Calibrate(task, "curved", Poses::AUTO);
 	EXPECT_LT(TiltError(c.solution.states[1], lens), 4 * c.solution.states[1].lens_tilt.sigma + 4 * 0.005);

@@ -5,7 +5,7 @@
 #include <tiltcal/calibrate.h>
 #include <tiltcal/error.h>
 #include "solve/solve_lens.h"
-#include "synthetic_lens.h"
+#include "support/synthetic_lens.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,10 +16,7 @@ namespace
 {
 
 using namespace tiltcal;
-using synthetic::Lens;
-using synthetic::MakeTask;
-using synthetic::Noise;
-using synthetic::Photograph;
+using namespace synthetic;
 
 struct Case
 {
@@ -30,10 +27,8 @@ class RigidTilt : public testing::TestWithParam<Case> {};
 
 TEST_P(RigidTilt, ComesBackFromExactBlur)
 {
-	Lens untilted, tilted;
-	tilted.tilt = GetParam().tilt;
-	tilted.direction = GetParam().direction;
-	const Calibration c = Calibrate(MakeTask({ Photograph("untilted", untilted, {}), Photograph("tilted", tilted, {}) }), "rigid", Poses::AUTO);
+	const Lens untilted, tilted = Tilted(GetParam().tilt, GetParam().direction);
+	const Calibration c = Calibrate(TwoStates(untilted, tilted), "rigid", Poses::AUTO);
 	const Solution& s = c.solution;
 	EXPECT_EQ(s.model, "rigid");
 	// Left out is what is of second order in the aperture, (d/2)^2 |q|^2 = 4e-4 of the blur at most. As vectors, because
@@ -53,12 +48,9 @@ INSTANTIATE_TEST_SUITE_P(Tilts, RigidTilt, testing::Values(Case{ 0, 0 }, Case{ 5
 
 TEST(SolveRigid, NoiseComesOutAsSigmaSmallerThanOfPlane)
 {
-	Lens untilted, tilted;
+	Lens untilted, tilted = Tilted(5, 30);
 	untilted.floor = tilted.floor = 1;
-	tilted.tilt = 5;
-	tilted.direction = 30;
-	const Noise noise{ 0.03, 0.06, 11 };
-	const Task task = MakeTask({ Photograph("untilted", untilted, noise), Photograph("tilted", tilted, noise) });
+	const Task task = TwoStates(untilted, tilted, { 0.03, 0.06, 11 });
 	const Calibration rigid = Calibrate(task, "rigid", Poses::AUTO), plane = Calibrate(task, "plane", Poses::AUTO);
 	const StateLens& lens = rigid.solution.states[1];
 	EXPECT_NEAR(lens.lens_tilt.value, 5, 4 * lens.lens_tilt.sigma);
@@ -71,11 +63,8 @@ TEST(SolveRigid, NoiseComesOutAsSigmaSmallerThanOfPlane)
 
 TEST(SolveRigid, ThreeStatesShareOneLens)
 {
-	Lens untilted, plus, minus;
-	plus.tilt = 5;
-	minus.tilt = -5;
 	const Noise noise{ 0.03, 0.06, 4 };
-	const Calibration c = Calibrate(MakeTask({ Photograph("untilted", untilted, noise), Photograph("plus", plus, noise), Photograph("minus", minus, noise) }), "rigid", Poses::AUTO);
+	const Calibration c = Calibrate(MakeTask({ Photograph("untilted", {}, noise), Photograph("plus", Tilted(5), noise), Photograph("minus", Tilted(-5), noise) }), "rigid", Poses::AUTO);
 	EXPECT_NEAR(c.solution.states[1].lens_tilt.value, 5, 4 * c.solution.states[1].lens_tilt.sigma);
 	EXPECT_NEAR(c.solution.states[2].lens_tilt.value, -5, 4 * c.solution.states[2].lens_tilt.sigma);
 	EXPECT_NEAR(c.solution.states[1].focal_length.value, c.solution.states[2].focal_length.value, 1e-9);
@@ -85,10 +74,8 @@ TEST(SolveRigid, OneTiltedPhotographHasNoMirrorImage)
 {
 	// The mirror image of the plane of focus in the board asks for another focal length,
 	// which this model does not have.
-	Lens untilted, tilted;
-	tilted.tilt = 5;
 	const Noise noise{ 0.02, 0.05, 8 };
-	const Calibration c = Calibrate(MakeTask({ Photograph("untilted", untilted, noise), Photograph("tilted", tilted, noise, 1) }), "rigid", Poses::AUTO);
+	const Calibration c = Calibrate(MakeTask({ Photograph("untilted", {}, noise), Photograph("tilted", Tilted(5), noise, 1) }), "rigid", Poses::AUTO);
 	// The one board's own pose is known to 0.1 degrees or so, and the tilt no better.
 	EXPECT_NEAR(c.solution.states[1].lens_tilt.value, 5, 0.2);
 }
@@ -107,11 +94,9 @@ TEST(SolveRigid, UntiltedAlone)
 TEST(SolveRigid, ALensThatIsRefocusedFitsWorseThanInPlane)
 {
 	// Another focal length in the tilted state: rigid must show that it does not hold.
-	Lens untilted, tilted;
-	tilted.tilt = 5;
+	Lens tilted = Tilted(5);
 	tilted.f = 44.4;
-	const Noise noise{ 0.02, 0.05, 9 };
-	const Task task = MakeTask({ Photograph("untilted", untilted, noise), Photograph("tilted", tilted, noise) });
+	const Task task = TwoStates({}, tilted, { 0.02, 0.05, 9 });
 	EXPECT_GT(Calibrate(task, "rigid", Poses::AUTO).solution.rms_blur, 2 * Calibrate(task, "plane", Poses::AUTO).solution.rms_blur);
 }
 

@@ -3,21 +3,20 @@
 // Targets to print, measured on the page. Poppler (pdftocairo) reads the PDF; pdftoppm would
 // snap axis-parallel edges to whole pixels.
 
+#include "base/process.h"
 #include "measure/detect.h"
 #include <tiltcal/photo.h>
 #include <tiltcal/error.h>
 #include "target/target.h"
+#include "support/in_temporary_folder.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgcodecs.hpp>
-#include <unistd.h>
 
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -25,7 +24,6 @@ namespace
 {
 
 using namespace tiltcal;
-namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 const double DPI = 150;
@@ -33,23 +31,16 @@ const double DPI = 150;
 /// Page millimetres of a pixel whose centre is at integers.
 double Mm(double pixel) { return (pixel + 0.5) * 25.4 / DPI; }
 
-class Print : public testing::Test
+class Print : public InTemporaryFolder
 {
 protected:
-	void SetUp() override
-	{
-		folder = fs::path(testing::TempDir()) / fmt::format("tiltcal-target-{}", ::getpid());
-		fs::create_directories(folder);
-	}
-	void TearDown() override { fs::remove_all(folder); }
-
 	/// Writes the page as PDF and reads what poppler makes of it.
 	cv::Mat Printed(const TargetPage& page)
 	{
-		const std::string pdf = (folder / "page.pdf").string(), png = (folder / "page").string();
+		const std::string pdf = At("page.pdf"), png = At("page");
 		WriteTarget(page, pdf);
-		const std::string command = fmt::format("pdftocairo -r {} -gray -png -singlefile '{}' '{}'", DPI, pdf, png);
-		EXPECT_EQ(std::system(command.c_str()), 0) << command << " (package poppler-utils)";
+		const ProcessResult converted = RunProcess({ { "pdftocairo", "-r", fmt::format("{}", DPI), "-gray", "-png", "-singlefile", pdf, png } });
+		EXPECT_EQ(converted.exit_code, 0) << "pdftocairo (package poppler-utils): " << converted.said;
 		const cv::Mat picture = cv::imread(png + ".png", cv::IMREAD_GRAYSCALE);
 		EXPECT_FALSE(picture.empty());
 		// Whole pixels, rounded up.
@@ -57,8 +48,6 @@ protected:
 		EXPECT_NEAR(picture.rows, page.height / 25.4 * DPI, 1);
 		return picture;
 	}
-
-	fs::path folder;
 };
 
 // A printer of 600 dpi places dots to 0.04 mm; the page is drawn to 0.001 mm, and what is measured
@@ -135,7 +124,7 @@ TEST_F(Print, CirclesAreWhereOpenCvFindsThem)
 
 TEST_F(Print, SvgIsInMillimetres)
 {
-	const std::string file = (folder / "page.svg").string();
+	const std::string file = At("page.svg");
 	WriteTarget(LayOut(MakeTarget(TargetKind::CHECKERBOARD, "12x9", 25, 0), "auto", 10), file);
 	std::ostringstream text;
 	text << std::ifstream(file).rdbuf();
@@ -146,7 +135,7 @@ TEST_F(Print, SvgIsInMillimetres)
 
 TEST_F(Print, UnwritableFileIsNamed)
 {
-	EXPECT_THROW(WriteTarget(LayOut(MakeTarget(TargetKind::CIRCLES, "7x6", 18, 0), "a4", 10), (folder / "nowhere" / "page.pdf").string()), Error);
+	EXPECT_THROW(WriteTarget(LayOut(MakeTarget(TargetKind::CIRCLES, "7x6", 18, 0), "a4", 10), At("nowhere/page.pdf")), Error);
 }
 
 std::string Refusal(const std::string& board, double square, const std::string& paper)

@@ -7,9 +7,7 @@
 //   fuzz --povray build/asan/bin/povray --work /tmp/fuzz --seed 1 --only 4711     one block again
 //   fuzz --povray build/asan/bin/povray --work /tmp/fuzz --scene FILE             a scene of your own
 
-#include <signal.h>
-#include <sys/wait.h>
-#include <unistd.h>
+#include <sys/resource.h>
 
 #include <CLI/CLI.hpp>
 
@@ -20,7 +18,8 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <map>
+#include <list>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -37,6 +36,12 @@ struct Run
 	fs::path folder;
 	Clock::time_point start;
 	int attempts = 1;
+};
+
+struct Running
+{
+	Run run;
+	tiltcal::Process process;
 };
 
 struct Settings
@@ -92,35 +97,33 @@ class Fuzzer
 		void Begin(Run run)
 		{
 			run.start = Clock::now();
-			const pid_t process = Start(run.block, settings.povray, run.folder);
-			running.emplace(process, std::move(run));
+			tiltcal::Process process = Start(run.block, settings.povray, run.folder, settings.timeout);
+			running.push_back({ std::move(run), std::move(process) });
 		}
 
-		// Waits for a process to end, and ends those that take too long.
+		// Takes what has ended, and sleeps where nothing has.
 		void Collect()
 		{
-			int status = 0;
-			const pid_t process = waitpid(-1, &status, WNOHANG);
-			if (process > 0)
+			bool any = false;
+			for (auto one = running.begin(); one != running.end();)
 			{
-				const auto run = running.find(process);
-				if (run != running.end())
+				const std::optional<tiltcal::ProcessResult> result = one->process.Poll();
+				if (!result)
 				{
-					const bool late = Seconds(run->second.start) > settings.timeout && WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL;
-					const Outcome outcome = late ? Outcome::Hang : Judge(run->second.block, status, run->second.folder);
-					Run ended = std::move(run->second);
-					running.erase(run);
-					if (outcome == Outcome::NotStarted && ended.attempts++ < 5)
-						Begin(std::move(ended));
-					else
-						Finish(ended, outcome);
+					++one;
+					continue;
 				}
-				return;
+				any = true;
+				Run ended = std::move(one->run);
+				one = running.erase(one);
+				const Outcome outcome = Judge(ended.block, *result, ended.folder);
+				if (outcome == Outcome::NotStarted && ended.attempts++ < 5)
+					Begin(std::move(ended));
+				else
+					Finish(ended, outcome);
 			}
-			for (const auto& [id, run] : running)
-				if (Seconds(run.start) > settings.timeout)
-					kill(-id, SIGKILL);
-			std::this_thread::sleep_for(std::chrono::milliseconds(2));
+			if (!any)
+				std::this_thread::sleep_for(std::chrono::milliseconds(2));
 		}
 
 		void Finish(const Run& run, Outcome outcome)
@@ -164,7 +167,7 @@ class Fuzzer
 		const Settings settings;
 		const Clock::time_point began;
 		std::vector<fs::path> free_folders;
-		std::map<pid_t, Run> running;
+		std::list<Running> running;
 		std::uint64_t counts[Outcomes] = {}, done = 0;
 		int failures = 0;
 		double slowest = 0;
@@ -195,6 +198,9 @@ try
 	// destructor, through a pointer to the base at the end of every render: neither is looked for.
 	setenv("ASAN_OPTIONS", "detect_leaks=0:new_delete_type_mismatch=0", 0);
 	setenv("UBSAN_OPTIONS", "print_stacktrace=1", 0);
+	// What crashes is to leave no cores behind; limits are inherited.
+	const rlimit no_core = { 0, 0 };
+	setrlimit(RLIMIT_CORE, &no_core);
 	return Fuzzer(settings).Go();
 }
 catch (const std::exception& error)

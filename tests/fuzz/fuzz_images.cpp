@@ -6,7 +6,7 @@
 // Exit code 0: no failure, 1: some, 2: hang (or the sanitizer's own).
 
 #include "damage.h"
-#include "picture_seeds.h"
+#include "support/picture_seeds.h"
 
 #include <tiltcal/error.h>
 #include "picture/exif.h"

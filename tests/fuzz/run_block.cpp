@@ -2,11 +2,6 @@
 
 #include "run_block.h"
 
-#include <fcntl.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -16,7 +11,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "picture.h"
+#include "support/picture.h"
 
 const int PictureWidth = 4, PictureHeight = 3;
 
@@ -33,40 +28,21 @@ bool IsFailure(Outcome outcome)
 	return int(outcome) >= int(Outcome::Crash);
 }
 
-pid_t Start(const Block& block, const std::string& povray, const std::filesystem::path& folder)
+tiltcal::Process Start(const Block& block, const std::string& povray, const std::filesystem::path& folder, double timeout)
 {
 	std::filesystem::remove_all(folder);
 	std::filesystem::create_directories(folder);
 	std::ofstream(folder / "s.pov", std::ios::binary) << block.scene;
 
 	// The short name keeps "File 's.pov' line N:" on one line of POV-Ray's 80 columns.
-	std::vector<std::string> words = { povray, "-D", "+FE", "+Is.pov", "+Os.exr",
+	tiltcal::ProcessSetup setup;
+	setup.command = { povray, "-D", "+FE", "+Is.pov", "+Os.exr",
 		"+W" + std::to_string(PictureWidth), "+H" + std::to_string(PictureHeight) };
-	words.insert(words.end(), block.options.begin(), block.options.end());
-	std::vector<char*> arguments;
-	for (std::string& word : words)
-		arguments.push_back(word.data());
-	arguments.push_back(nullptr);
-
-	const pid_t process = fork();
-	if (process < 0)
-		throw std::runtime_error("cannot start another process; use fewer --jobs");
-	if (process > 0)
-		return process;
-
-	setpgid(0, 0);
-	const rlimit no_core = { 0, 0 };
-	setrlimit(RLIMIT_CORE, &no_core);
-	if (chdir(folder.c_str()) == 0)
-	{
-		const int log = open("log", O_WRONLY | O_CREAT | O_TRUNC, 0644);
-		const int nothing = open("/dev/null", O_RDONLY);
-		dup2(nothing, 0);
-		dup2(log, 1);
-		dup2(log, 2);
-		execv(povray.c_str(), arguments.data());
-	}
-	_exit(127);
+	setup.command.insert(setup.command.end(), block.options.begin(), block.options.end());
+	setup.folder = folder.string();
+	setup.log = (folder / "log").string();
+	setup.timeout = timeout;
+	return tiltcal::Process(setup);
 }
 
 static bool Contains(const std::string& text, const char* part)
@@ -100,20 +76,22 @@ static bool NamesALine(const std::string& log, const std::string& scene)
 	return false;
 }
 
-Outcome Judge(const Block& block, int status, const std::filesystem::path& folder)
+Outcome Judge(const Block& block, const tiltcal::ProcessResult& result, const std::filesystem::path& folder)
 {
 	std::ifstream file(folder / "log", std::ios::binary);
 	std::ostringstream text;
 	text << file.rdbuf();
 	const std::string log = text.str();
 
+	if (result.late)
+		return Outcome::Hang;
 	if (Contains(log, "AddressSanitizer") || Contains(log, "runtime error:"))
 		return Outcome::Sanitizer;
 	if (Contains(log, "Timed out waiting for worker thread startup"))
 		return Outcome::NotStarted;
-	if (!WIFEXITED(status) || WEXITSTATUS(status) > 1)
+	if (result.exit_code > 1)
 		return Outcome::Crash;
-	if (WEXITSTATUS(status) == 1 || Contains(log, ": Parse Error:"))    // "Possible Parse Error:" is a warning
+	if (result.exit_code == 1 || Contains(log, ": Parse Error:"))    // "Possible Parse Error:" is a warning
 	{
 		if (!NamesALine(log, block.scene))
 			return Outcome::NoLine;

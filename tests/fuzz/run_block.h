@@ -2,11 +2,10 @@
 //
 // One POV-Ray process, and what became of it.
 #pragma once
-#include <sys/types.h>
-
 #include <filesystem>
 #include <string>
 
+#include "base/process.h"
 #include "camera_blocks.h"
 
 enum class Outcome
@@ -23,8 +22,8 @@ const int Outcomes = int(Outcome::NotStarted) + 1;
 const char* Name(Outcome outcome);
 bool IsFailure(Outcome outcome);
 
-// Writes the block's scene to `folder` and starts POV-Ray there, in a process group of its own.
-pid_t Start(const Block& block, const std::string& povray, const std::filesystem::path& folder);
+// Writes the block's scene to `folder` and starts POV-Ray there, for `timeout` seconds at the most.
+tiltcal::Process Start(const Block& block, const std::string& povray, const std::filesystem::path& folder, double timeout);
 
-// Reads what a process that ended with `status` (as from waitpid) has left in `folder`.
-Outcome Judge(const Block& block, int status, const std::filesystem::path& folder);
+// Reads what a process that ended so has left in `folder`.
+Outcome Judge(const Block& block, const tiltcal::ProcessResult& result, const std::filesystem::path& folder);

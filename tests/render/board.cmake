@@ -3,6 +3,7 @@
 #
 #   cmake -DTILTCAL= -DPOVRAY= -DCOMPARE=<compare_corners> -DSCENES= -DCALIBRATION= -DSTATE= -DWORK= -P board.cmake
 cmake_minimum_required(VERSION 3.25)
+include("${SCENES}/cmake/script.cmake")
 
 # A corner comes from some hundred pixels, whose noise averages out; not so with few samples in the most blurred photograph, minus5-1.
 set(SAMPLES 32)
@@ -21,14 +22,9 @@ set(photo_number 0)
 foreach(photo IN LISTS photos)
 	get_filename_component(name "${photo}" NAME_WE)
 	math(EXPR photo_number "${photo_number} + 1")
-	execute_process(
-		COMMAND "${POVRAY}" "+I${SCENES}/board/board.pov" "+L${SCENES}/board" "+L${CALIBRATION}" +W1800 +H1200
-			Declare=State=${number} Declare=Photo=${photo_number} Declare=TiltCal_Blur_Samples=${SAMPLES}
-			-D -A +WT1 +FE "+O${WORK}/${name}.exr"
-		OUTPUT_VARIABLE log ERROR_VARIABLE log RESULT_VARIABLE failed)
-	if(failed)
-		message(FATAL_ERROR "rendering ${name} failed:\n${log}")
-	endif()
+	run(COMMAND "${POVRAY}" "+I${SCENES}/board/board.pov" "+L${SCENES}/board" "+L${CALIBRATION}" +W1800 +H1200
+		Declare=State=${number} Declare=Photo=${photo_number} Declare=TiltCal_Blur_Samples=${SAMPLES}
+		-D -A +WT1 +FE "+O${WORK}/${name}.exr")
 	list(APPEND renders "${WORK}/${name}.exr")
 endforeach()
 

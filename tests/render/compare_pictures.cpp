@@ -14,7 +14,7 @@
 //   compare_pictures series RATIO A B... the differences from picture to picture change smoothly: see below
 //
 // Every picture must be finite. Exit 0: as asked, 1: not, 2: wrong usage or an unreadable file.
-#include "picture.h"
+#include "support/picture.h"
 
 #include <algorithm>
 #include <cmath>

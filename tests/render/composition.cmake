@@ -2,6 +2,7 @@
 #
 #   cmake -DTILTCAL= -DPOVRAY= -DCOMPARE=<compare_pictures> -DSCENES= -DCALIBRATION= -DWORK= -P composition.cmake
 cmake_minimum_required(VERSION 3.25)
+include("${SCENES}/cmake/script.cmake")
 file(REMOVE_RECURSE "${WORK}")
 file(MAKE_DIRECTORY "${WORK}")
 set(width 150)
@@ -12,12 +13,7 @@ function(photograph state)
 	file(WRITE "${WORK}/${state}.pov" "#version 3.7; global_settings { assumed_gamma 1 }
 box { 0, <1, 1, 0.01> pigment { image_map { jpeg \"${state}.jpg\" once } } finish { emission 1 diffuse 0 ambient 0 } }
 camera { orthographic location <0.5, 0.5, -1> direction z right x up y }\n")
-	execute_process(
-		COMMAND "${POVRAY}" "+I${WORK}/${state}.pov" "+L${SCENES}/boxes/photos/scene" -D -A +W${width} +H${height} +FE "+O${WORK}/${state}.exr"
-		OUTPUT_VARIABLE log ERROR_VARIABLE log RESULT_VARIABLE failed)
-	if(failed)
-		message(FATAL_ERROR "${log}")
-	endif()
+	run(COMMAND "${POVRAY}" "+I${WORK}/${state}.pov" "+L${SCENES}/boxes/photos/scene" -D -A +W${width} +H${height} +FE "+O${WORK}/${state}.exr")
 endfunction()
 
 # composed(STATE PUT_IN): OUT/composed.exr.

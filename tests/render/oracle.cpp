@@ -9,7 +9,8 @@
 //
 // Exit 0: RMS difference in linear RGB within the limits, 1: not, 2: wrong usage or a program failed.
 #include "pinholes.h"
-#include "run_povray.h"
+#include "support/case_options.h"
+#include "support/run_povray.h"
 
 #include <cstdio>
 #include <exception>
@@ -73,11 +74,7 @@ bool Compare(const Camera& camera, Picture truth, const fs::path& scene, const f
 int main(int argc, char** argv)
 try
 {
-	std::map<std::string, std::string> option;
-	if (argc < 2 || argc % 2 != 0)
-		throw std::runtime_error("usage: oracle CASE --stock POVRAY --ours POVRAY --scene SCENE --work DIR");
-	for (int i = 2; i < argc; i += 2)
-		option[argv[i]] = argv[i + 1];
+	std::map<std::string, std::string> option = ReadCaseOptions(argc, argv, "--stock POVRAY --ours POVRAY --scene SCENE --work DIR");
 	const Camera camera = OracleCamera(argv[1]);
 	const fs::path work = fs::path(option["--work"]) / ("oracle-" + camera.name);
 	const fs::path truth_file = fs::path(option["--work"]) / ("oracle-" + camera.Truth()) / "truth.bin";

@@ -5,8 +5,9 @@
 //   peer CASE --stock POVRAY --ours POVRAY --scene oracle-scene.inc --work DIR
 //
 // Exit 0: alike within the case's limit, 1: not, 2: wrong usage or a program failed.
-#include "picture.h"
-#include "run_povray.h"
+#include "support/case_options.h"
+#include "support/picture.h"
+#include "support/run_povray.h"
 
 #include <cstdio>
 #include <exception>
@@ -54,11 +55,7 @@ void WriteScene(const fs::path& path, const fs::path& scene, const std::string& 
 int main(int argc, char** argv)
 try
 {
-	std::map<std::string, std::string> option;
-	if (argc < 2 || argc % 2 != 0)
-		throw std::runtime_error("usage: peer CASE --stock POVRAY --ours POVRAY --scene SCENE --work DIR");
-	for (int i = 2; i < argc; i += 2)
-		option[argv[i]] = argv[i + 1];
+	std::map<std::string, std::string> option = ReadCaseOptions(argc, argv, "--stock POVRAY --ours POVRAY --scene SCENE --work DIR");
 	const std::string name = argv[1];
 	for (const Pair& pair : pairs)
 	{

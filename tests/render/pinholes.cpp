@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
 #include "pinholes.h"
-#include "run_povray.h"
+#include "support/run_povray.h"
 
 #include <fstream>
 #include <future>

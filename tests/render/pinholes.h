@@ -8,7 +8,7 @@
 // shared with the camera under test.
 #pragma once
 #include "oracle_cases.h"
-#include "picture.h"
+#include "support/picture.h"
 
 #include <filesystem>
 

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// What is raced: opponents, their settings, and the scenes. Settings come from settings.json.
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+enum class Opponent
+{
+	STOCK, // stock focal blur
+	OURS, // tilt_lens, denoised
+	RAW, // tilt_lens, not denoised
+	FIXED, // tilt_lens, every pixel the same number of samples
+	PINHOLES // the mean of stock pinhole frames
+};
+
+struct Setting
+{
+	Opponent opponent = Opponent::OURS;
+	int min = 0, max = 37; // blur_samples; min 0: a maximum alone. Pinholes: max frames
+	double variance = 0, confidence = 0.9;
+	bool bokeh = false; // stock with a round bokeh pigment
+	bool denoise = false; // tilt_lens
+	bool tilted = false;
+	int seed = 0; // another set of samples
+};
+
+// As a scene would write it, for tables and keys.
+std::string Label(const Setting& setting);
+const char* Name(Opponent opponent);
+
+struct RaceScene
+{
+	std::string name; // of the file
+	std::string title, shows;
+	bool tilted = false; // can be raced tilted too
+	std::filesystem::path file;
+};
+
+// Every *.pov of the folder, by name. Throws std::runtime_error for one without a title.
+std::vector<RaceScene> ReadScenes(const std::filesystem::path& folder);
+
+struct RaceSettings
+{
+	int width = 0, height = 0;
+	int repeats = 0;
+	double longest_run = 0; // CPU seconds; settings that would need more are left out
+	double enough = 0; // an opponent's ladder of fixed N ends below this error
+	int reference_samples = 0, reference_seeds = 0; // samples of one set, sets at most
+	double reference_error = 0; // sets are added until the reference is this good
+	int limit_samples = 0; // of stock's own limit, twice
+	int pinhole_frames = 0, check_frames = 0;
+	std::vector<double> errors; // at which times are compared
+	std::vector<double> rel_mse;
+	std::vector<Setting> stock, ours, raw, fixed;
+};
+
+// `mode` is "full" or "quick". Throws std::exception that names what is wrong.
+RaceSettings ReadSettings(const std::filesystem::path& file, const std::string& mode);
