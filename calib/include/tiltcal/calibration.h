@@ -162,7 +162,7 @@ struct Chromatic
 {
 	std::string failure;      ///< why nothing can be said; empty when something can
 	int edges = 0;
-	std::array<Estimate, 2> lateral;         ///< C_R, C_B of tilt_lens/chromatic.h
+	std::array<Estimate, 2> lateral;         ///< C_R, C_B of lens/chromatic.h
 	std::array<Estimate, 2> axial_per_mm;    ///< A_R, A_B
 	double lateral_held_out_without = 0, lateral_held_out_with = 0;   ///< of an edge's shift, px; 0: there is nothing to leave out
 	double axial_held_out_without = 0, axial_held_out_with = 0;       ///< of an edge's difference in blur width, px

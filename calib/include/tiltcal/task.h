@@ -30,7 +30,7 @@ struct FlatField
 	std::vector<BrightPatch> patches;
 };
 
-/// The opening's blades (tilt_lens/blades.h).
+/// The opening's blades (lens/blades.h).
 struct FixedBlades
 {
 	int count = 0;                 ///< 0: not known
