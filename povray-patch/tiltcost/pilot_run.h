@@ -6,9 +6,9 @@
 #ifndef TILTCOST_PILOT_RUN_H
 #define TILTCOST_PILOT_RUN_H
 
-#include "pilot_file.h"
-#include "process.h"
-#include "search.h"
+#include "tiltcost/pilot_file.h"
+#include "tiltcost/process.h"
+#include "tiltcost/search.h"
 
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
-#include "process.h"
+#include "tiltcost/process.h"
 
 #include <tiltcal/error.h>
 
