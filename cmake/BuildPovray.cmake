@@ -1,9 +1,10 @@
 # Acquires, patches, configures and makes POV-Ray, each step only where needed,
 # and lays out STAGE/bin, STAGE/share and STAGE/etc so that it runs from there.
 #
-#   cmake -DWORK=... -DSTAGE=... -DPATCH_DIR=... -DFLAGS=... [-DSOURCE=...] [-DCCACHE=...]
+#   cmake -DWORK=... -DSTAGE=... -DPATCH_DIR=... -DLENS_LIBRARY=... -DFLAGS=... [-DSOURCE=...] [-DCCACHE=...]
 #         [-DCXX=...] [-DCC=...] [-DOWN_FLAGS=...] -P BuildPovray.cmake
 #
+# LENS_LIBRARY: the archive of PATCH_DIR/lens, which CMake has made.
 # OWN_FLAGS: further flags for tilt_lens/*.cpp and for linking, not for upstream's sources.
 
 cmake_minimum_required(VERSION 3.25)
@@ -19,9 +20,9 @@ execute_process(
 		-P "${CMAKE_CURRENT_LIST_DIR}/PatchPovray.cmake"
 	COMMAND_ERROR_IS_FATAL ANY)
 
-# What configure's answer depends on: the flags and the list of source files.
+# What configure's answer depends on: the flags, where lens/ is and the list of source files.
 file(GLOB ours RELATIVE "${PATCH_DIR}" "${PATCH_DIR}/tilt_lens/*.cpp")
-set(wanted "${FLAGS}|${CXX}|${CC}|${CCACHE}|${ours}")
+set(wanted "${FLAGS}|${CXX}|${CC}|${CCACHE}|${PATCH_DIR}|${LENS_LIBRARY}|${ours}")
 if(OWN_FLAGS)
 	string(APPEND wanted "|${OWN_FLAGS}")
 endif()
@@ -45,7 +46,7 @@ if(NOT configured STREQUAL wanted)
 			./configure "COMPILED_BY=the tilt-lens project" NON_REDISTRIBUTABLE_BUILD=yes
 			--without-libsdl --without-x --disable-optimiz --disable-optimiz-arch --disable-strip
 			--with-boost-thread=boost_thread
-			"LIBS=-lboost_system -lboost_thread" "CXXFLAGS=${FLAGS}" "CFLAGS=${FLAGS}" "LDFLAGS=${OWN_FLAGS}"
+			"LIBS=-lboost_system -lboost_thread" "CPPFLAGS=-I${PATCH_DIR}" "CXXFLAGS=${FLAGS}" "CFLAGS=${FLAGS}" "LDFLAGS=${OWN_FLAGS}"
 			"CXX=${CCACHE} ${CXX}" "CC=${CCACHE} ${CC}"
 		WORKING_DIRECTORY "${src}"
 		RESULT_VARIABLE result OUTPUT_FILE "${WORK}/configure.log" ERROR_FILE "${WORK}/configure.log")
@@ -56,7 +57,8 @@ if(NOT configured STREQUAL wanted)
 	if(missing)
 		message(FATAL_ERROR "POV-Ray would lack picture formats:${missing}. Run cmake/setup.sh and try again.")
 	endif()
-	# GNU make prefers this file to configure's Makefile.
+	# GNU make prefers these files to configure's Makefiles. The program links the lens library, and again when that is newer.
+	file(WRITE "${src}/unix/GNUmakefile" "include Makefile\nLIBS += ${LENS_LIBRARY}\npovray: ${LENS_LIBRARY}\n")
 	if(OWN_FLAGS)
 		file(WRITE "${src}/source/GNUmakefile" "include Makefile\nbackend/tilt_lens/%.o: CXXFLAGS += ${OWN_FLAGS}\n")
 	else()

@@ -1,4 +1,4 @@
-# Man pages, made from the programs' own --help at build time and from hand-written frames.
+# Man pages, made at build time from the programs' own --help, or the table of words, and from hand-written frames.
 
 set(man_folder "${CMAKE_BINARY_DIR}/share/man/man1")
 file(MAKE_DIRECTORY "${man_folder}")
@@ -20,11 +20,18 @@ add_man_page(tiltcost "${PROJECT_SOURCE_DIR}/povray-patch/tiltcost/man/tiltcost.
 get_property(man_pages GLOBAL PROPERTY tilt_lens_man_pages)
 add_custom_target(man-pages ALL DEPENDS ${man_pages})
 
-# This one is POV-Ray's own, and hand-written as a whole.
-set(VERSION "${PROJECT_VERSION}")
-configure_file("${PROJECT_SOURCE_DIR}/povray-patch/man/povray-tilt.1.in" "${man_folder}/povray-tilt.1" @ONLY)
-unset(VERSION)
+# This one is POV-Ray's own: hand-written but for the words of tilt_lens, which come from the table that the parser has.
+add_executable(words_page EXCLUDE_FROM_ALL "${PROJECT_SOURCE_DIR}/povray-patch/man/words_page.cpp")
+target_link_libraries(words_page PRIVATE tilt_lens_core tilt_lens_warnings)
+set_target_properties(words_page PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/povray-patch")
+set(frame "${PROJECT_SOURCE_DIR}/povray-patch/man/povray-tilt.1.in")
+set(page "${man_folder}/povray-tilt.1")
+add_custom_command(OUTPUT "${page}"
+	COMMAND words_page "${PROJECT_VERSION}" < "${frame}" > "${page}"
+	DEPENDS words_page "${frame}"
+	COMMENT "Man page of povray-tilt" VERBATIM)
+add_custom_target(povray-man-page ALL DEPENDS "${page}")
 if(TARGET povray)
-	list(APPEND man_pages "${man_folder}/povray-tilt.1")
+	list(APPEND man_pages "${page}")
 endif()
 install(FILES ${man_pages} DESTINATION "${CMAKE_INSTALL_MANDIR}/man1")

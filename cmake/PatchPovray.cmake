@@ -75,7 +75,7 @@ file(WRITE "${WORK}/patched-files.txt" "${text}\n")
 file(GLOB ours RELATIVE "${PATCH_DIR}/tilt_lens" "${PATCH_DIR}/tilt_lens/*.h" "${PATCH_DIR}/tilt_lens/*.cpp")
 set(linked "${src}/source/backend/tilt_lens")
 file(MAKE_DIRECTORY "${linked}")
-file(GLOB present RELATIVE "${linked}" "${linked}/*")
+file(GLOB present RELATIVE "${linked}" "${linked}/*.h" "${linked}/*.cpp")   # not objects, which make keeps there
 foreach(name IN LISTS present)
 	if(NOT name IN_LIST ours)
 		file(REMOVE "${linked}/${name}")

@@ -82,7 +82,7 @@ StateCamera CameraOfState(const Calibration& c, size_t s, Distorted distorted)
 
 Vec3<double> StateCamera::LensNormal() const
 {
-	const double radians = tilt_lens::PI / 180;
+	const double radians = tilt_lens::Pi / 180;
 	return tilt_lens::LensNormalFromTilt(lens_tilt_deg * radians, tilt_direction_deg * radians);
 }
 

@@ -22,7 +22,7 @@ namespace tiltcal
 namespace
 {
 
-const double DEGREES = tilt_lens::DEGREES_PER_RADIAN;
+const double DEGREES = tilt_lens::DegreesPerRadian;
 
 /// Nobody measures points in a photograph better; two poses that differ by less cannot be told apart.
 /// Fewer than 6 points say nothing about their own noise: they may have been clicked by hand.

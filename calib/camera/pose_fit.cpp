@@ -263,7 +263,7 @@ bool PoseFit::Covariance(const PoseMinimum& m, double scale_px, Eigen::Matrix<do
 
 bool SamePose(const PoseMinimum& a, const PoseMinimum& b)
 {
-	return a.rotation.angularDistance(b.rotation) < 0.5 * tilt_lens::PI / 180 && (a.location - b.location).norm() < 0.01 * a.location.norm();
+	return a.rotation.angularDistance(b.rotation) < 0.5 * tilt_lens::Pi / 180 && (a.location - b.location).norm() < 0.01 * a.location.norm();
 }
 
 }

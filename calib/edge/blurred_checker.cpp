@@ -12,7 +12,7 @@ namespace tiltcal
 namespace
 {
 
-using tilt_lens::PI;
+using tilt_lens::Pi;
 
 /// Length of the part of the chord s.n1 = t1 of the unit disc in s.n2 > t2.
 double ChordLength(double t1, double t2, double cosine, double sine)
@@ -28,13 +28,13 @@ double HalfShare(double t)
 {
 	if (std::abs(t) >= 1)
 		return t < 0 ? 1 : 0;
-	return (std::acos(t) - t * std::sqrt((1 - t) * (1 + t))) / PI;
+	return (std::acos(t) - t * std::sqrt((1 - t) * (1 + t))) / Pi;
 }
 
 /// - d HalfShare / dt.
 double HalfSlope(double t)
 {
-	return std::abs(t) >= 1 ? 0 : 2 * std::sqrt((1 - t) * (1 + t)) / PI;
+	return std::abs(t) >= 1 ? 0 : 2 * std::sqrt((1 - t) * (1 + t)) / Pi;
 }
 
 }
@@ -46,8 +46,8 @@ Wedge WedgeShare(double t1, double t2, double angle)
 	const double L1 = ChordLength(t1, t2, cosine, sine), L2 = ChordLength(t2, t1, cosine, sine);
 	const double a1 = std::acos(std::clamp(t1, -1.0, 1.0)), a2 = std::acos(std::clamp(t2, -1.0, 1.0));
 	const double arc = std::max(0.0, std::min(a1, angle + a2) - std::max(-a1, angle - a2))
-		+ std::max(0.0, std::min(a1, angle + a2 - 2 * PI) - std::max(-a1, angle - a2 - 2 * PI));
-	return { 0.5 * (arc - t1 * L1 - t2 * L2) / PI, -L1 / PI, -L2 / PI };
+		+ std::max(0.0, std::min(a1, angle + a2 - 2 * Pi) - std::max(-a1, angle - a2 - 2 * Pi));
+	return { 0.5 * (arc - t1 * L1 - t2 * L2) / Pi, -L1 / Pi, -L2 / Pi };
 }
 
 BlurredChecker::BlurredChecker(std::vector<CheckerLine> across_lines, size_t lines_before, std::vector<CheckerLine> along_lines, size_t lines_start)

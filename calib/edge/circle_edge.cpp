@@ -12,7 +12,7 @@ namespace tiltcal
 namespace
 {
 
-using tilt_lens::PI;
+using tilt_lens::Pi;
 
 /// b - sin b cos b: a segment of the unit circle of half angle b. The difference loses its digits below 0.05.
 double Segment(double b)
@@ -33,7 +33,7 @@ EdgeResponse OutsideShare(double x, double R, double rho)
 		const double inside = std::min(1.0, rho * rho / (R * R));
 		return { 1 - inside, 0, rho < R ? 2 * inside / R : 0 };
 	}
-	const double area = PI * R * R;
+	const double area = Pi * R * R;
 	// From the disc's centre towards the circle's: the common chord, half as long as h.
 	const double a = (x * (2 * rho + x) + R * R) / (2 * D), h = std::sqrt(std::max(R * R - a * a, 0.0));
 	const double alpha = std::acos(std::clamp(a / R, -1.0, 1.0)), beta = std::atan2(h, D - a);
@@ -47,7 +47,7 @@ EdgeResponse StraightShare(double x, double R)
 {
 	if (std::abs(x) >= R)
 		return { x < 0 ? 0.0 : 1.0, 0, 0 };
-	const double slope = 2 * std::sqrt((R - x) * (R + x)) / (PI * R * R);
+	const double slope = 2 * std::sqrt((R - x) * (R + x)) / (Pi * R * R);
 	return { DiscEdgeSpread(x, R), slope, -x / R * slope };
 }
 

@@ -12,7 +12,7 @@ namespace tiltcal
 namespace
 {
 
-using tilt_lens::PI;
+using tilt_lens::Pi;
 
 /// ESF, its first and second antiderivative (both 0 at -infinity) and their
 /// derivatives by R, at x.
@@ -32,9 +32,9 @@ Antiderivatives Evaluate(double x, double R)
 	const double s2 = (1 - t) * (1 + t);
 	const double s = std::sqrt(s2);
 	const double a = std::asin(t);
-	const double g0 = 0.5 + (a + t * s) / PI;
-	const double g1 = t / 2 + (t * a + s - s * s2 / 3) / PI;
-	const double g2 = t * t / 4 + ((t * t / 2 + 0.125) * a + 0.625 * t * s - t * s * s2 / 12) / PI + 0.0625;
+	const double g0 = 0.5 + (a + t * s) / Pi;
+	const double g1 = t / 2 + (t * a + s - s * s2 / 3) / Pi;
+	const double g2 = t * t / 4 + ((t * t / 2 + 0.125) * a + 0.625 * t * s - t * s * s2 / 12) / Pi + 0.0625;
 	// e1 = R g1(x/R), e2 = R^2 g2(x/R): the chain rule gives the derivatives by R.
 	return { g0, R * g1, R * R * g2, g1 - t * g0, R * (2 * g2 - t * g1) };
 }

@@ -117,7 +117,7 @@ std::vector<FalloffUnknowns> Starts(const FalloffFit& fit, double focal_length, 
 
 double LogLight(const FalloffFit& fit, const FalloffSample& s, const std::vector<tilt_lens::Rim>& rims)
 {
-	const double share = OpeningOf(s, fit.lens_radius, fit.image_distance, rims).area / (tilt_lens::PI * fit.lens_radius * fit.lens_radius);
+	const double share = OpeningOf(s, fit.lens_radius, fit.image_distance, rims).area / (tilt_lens::Pi * fit.lens_radius * fit.lens_radius);
 	return (fit.natural ? s.log_natural : 0) + std::log(std::max(share, LEAST_SHARE));
 }
 

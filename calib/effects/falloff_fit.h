@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 //
 // The least squares of vignetting: the brightness of evenly bright patches against the two effects of
-// tilt_lens/natural_vignetting.h and tilt_lens/optical_vignetting.h. In logarithms, so that exposure and lighting add:
+// lens/natural_vignetting.h and lens/optical_vignetting.h. In logarithms, so that exposure and lighting add:
 //   log value = gain of the photograph + gradient of its lighting . place + log natural fall-off + log open share(R, Z)
 
 #ifndef TILTCAL_FALLOFF_FIT_H

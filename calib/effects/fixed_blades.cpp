@@ -61,7 +61,7 @@ void CheckBlades(const FixedBlades& blades)
 
 double MeanSquareRadius(const FixedBlades& fixed)
 {
-	const tilt_lens::Blades blades = tilt_lens::MakeBlades(fixed.count, fixed.rotation_deg * tilt_lens::PI / 180, fixed.curvature);
+	const tilt_lens::Blades blades = tilt_lens::MakeBlades(fixed.count, fixed.rotation_deg * tilt_lens::Pi / 180, fixed.curvature);
 	// The map preserves area, so that the mean over the square is that over the opening. r^2 has kinks on the square's diagonals and at the blades' corners.
 	const int n = 512;
 	double sum = 0;

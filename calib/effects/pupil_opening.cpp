@@ -19,7 +19,7 @@ namespace tiltcal
 namespace
 {
 
-using tilt_lens::PI;
+using tilt_lens::Pi;
 
 /// A rim whose image on the lens would be larger than so many times itself is cut or open as a whole: sums keep their digits.
 const double LEAST_SCALE = 1e-3;
@@ -40,7 +40,7 @@ void AddArc(const Disc& d, double a, double b, Opening& sum)
 /// The arcs of disc k's rim that lie within all the others, as pairs of angles. Of equal discs the first has the rim.
 std::vector<std::pair<double, double>> ArcsWithin(const std::vector<Disc>& discs, size_t k)
 {
-	std::vector<std::pair<double, double>> arcs{ { -PI, PI } };
+	std::vector<std::pair<double, double>> arcs{ { -Pi, Pi } };
 	const Disc& d = discs[k];
 	for (size_t j = 0; j < discs.size() && !arcs.empty(); ++j)
 	{
@@ -55,7 +55,7 @@ std::vector<std::pair<double, double>> ArcsWithin(const std::vector<Disc>& discs
 		const double middle = std::atan2(dy, dx);
 		std::vector<std::pair<double, double>> left;
 		for (const auto& [from, to] : arcs)
-			for (const double turn : { -2 * PI, 0.0, 2 * PI })
+			for (const double turn : { -2 * Pi, 0.0, 2 * Pi })
 				if (std::max(from, middle - half + turn) < std::min(to, middle + half + turn))
 					left.emplace_back(std::max(from, middle - half + turn), std::min(to, middle + half + turn));
 		arcs = left;

@@ -20,7 +20,7 @@ namespace tiltcal
 namespace
 {
 
-const double DEGREES = tilt_lens::DEGREES_PER_RADIAN;
+const double DEGREES = tilt_lens::DegreesPerRadian;
 
 /// Fewer patches leave nothing over beside exposure and gradient.
 const size_t FEWEST_PATCHES = 6;

@@ -15,7 +15,7 @@ namespace tiltcal
 namespace
 {
 
-using tilt_lens::PI;
+using tilt_lens::Pi;
 
 double Cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 
@@ -29,7 +29,7 @@ CircleOutline::CircleOutline(const GridMap& map, const Vec2& place, double radiu
 	sines.fill(Vec2::Zero());
 	for (int m = 0; m < points; ++m)
 	{
-		const double t = 2 * PI * m / points;
+		const double t = 2 * Pi * m / points;
 		const Vec2 p = map.Pixel(place + radius * Vec2(std::cos(t), std::sin(t))) + shift;
 		for (int k = 0; k <= ORDER; ++k)
 		{
@@ -110,7 +110,7 @@ Vec2 CircleOutline::Centroid() const
 	Vec2 moment = Vec2::Zero();
 	for (int k = 0; k < 32; ++k)
 	{
-		const double t = 2 * PI * k / 32;
+		const double t = 2 * Pi * k / 32;
 		const Vec2 p = At(t) - centre;
 		const double w = Cross(p, Tangent(t));
 		area += w / 2;
@@ -123,7 +123,7 @@ double CircleOutline::SmallerRadius() const
 {
 	double least = std::numeric_limits<double>::infinity();
 	for (int k = 0; k < 16; ++k)
-		least = std::min(least, 0.5 * (At(PI * k / 16) - At(PI * k / 16 + PI)).norm());
+		least = std::min(least, 0.5 * (At(Pi * k / 16) - At(Pi * k / 16 + Pi)).norm());
 	return least;
 }
 

@@ -26,7 +26,7 @@ namespace
 
 using Points = std::vector<cv::Point2f>;
 
-using tilt_lens::PI;
+using tilt_lens::Pi;
 
 /// Dark blobs of an 8-bit picture.
 std::vector<cv::KeyPoint> Blobs(const cv::Mat& picture, const Board& board, float convexity)
@@ -125,7 +125,7 @@ double Contrast(const cv::Mat& grey, const Board& board, const GridMap& map, con
 	double middle = 0;
 	for (int k = 0; k < 4; ++k)
 	{
-		const double t = PI / 2 * k + (diagonal ? PI / 4 : 0);
+		const double t = Pi / 2 * k + (diagonal ? Pi / 4 : 0);
 		const Vec2 way(std::cos(t), std::sin(t));
 		const double far = Light(grey, map.Pixel(place + (diagonal ? std::sqrt(0.5) : 1) * way)), near = Light(grey, map.Pixel(place + 0.4 * board.CircleRadius() * way));
 		if (near < 0)
@@ -255,7 +255,7 @@ double SeenRadius(const cv::Mat& grey, const Board& board, const std::vector<Cor
 		const Vec2 place = map.Place(Vec2(c.x, c.y));
 		for (int k = 0; k < 8; ++k)
 		{
-			const double t = PI / 4 * k, outer = 0.5 * board.CirclePitch(), step = outer / 60;
+			const double t = Pi / 4 * k, outer = 0.5 * board.CirclePitch(), step = outer / 60;
 			const auto light = [&](double r) { return Light(grey, map.Pixel(place + r * Vec2(std::cos(t), std::sin(t)))); };
 			const double in = light(0), out = light(outer);
 			if (in < 0 || out < 0)

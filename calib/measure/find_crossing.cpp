@@ -35,7 +35,7 @@ bool IsCrossing(const cv::Mat& grey, const cv::Point2d& p, double radius)
 	double mean = 0;
 	for (size_t i = 0; i < STEPS; ++i)
 	{
-		const double angle = 2 * tilt_lens::PI * static_cast<double>(i) / STEPS;
+		const double angle = 2 * tilt_lens::Pi * static_cast<double>(i) / STEPS;
 		g[i] = Bilinear(grey, p.x + radius * std::cos(angle), p.y + radius * std::sin(angle));
 		mean += g[i] / STEPS;
 	}

@@ -19,10 +19,10 @@ namespace tiltcal
 namespace
 {
 
-using tilt_lens::PI;
+using tilt_lens::Pi;
 
 /// Angle in (-pi, pi].
-double Wrapped(double t) { return std::remainder(t, 2 * PI); }
+double Wrapped(double t) { return std::remainder(t, 2 * Pi); }
 
 /// Nodes along an arc.
 const int NODES = 9;
@@ -43,7 +43,7 @@ struct CircleView::Arc
 	double least_radius = std::numeric_limits<double>::infinity();          // of curvature, px
 	double side;                          // +1 when s grows with t
 
-	Arc(const CircleOutline& outline, int arc, int arcs, bool bright) : middle(2 * PI * arc / arcs), half(PI / arcs), side(bright ? 1 : -1)
+	Arc(const CircleOutline& outline, int arc, int arcs, bool bright) : middle(2 * Pi * arc / arcs), half(Pi / arcs), side(bright ? 1 : -1)
 	{
 		// Along the edge is (ny, -nx) of its normal from dark to bright: against t around a dark circle.
 		for (int k = 0; k < NODES; ++k)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 //
 // How wide a point's image is across an edge: the footprint of the lens's disc on the
-// sensor, as the exact models see it (DESIGN.md section 2).
+// sensor, as the exact models see it (povray-patch/lens/MODEL.md, Blur and footprint).
 //
 // Through the lens point S, n.S = 0, the point P is seen where the lens centre sees
 // P - sigma S, sigma = 1 - kappa(P) (optics.h, PixelDirectionThroughLensPoint, but for a

@@ -14,7 +14,7 @@ namespace tiltcal
 namespace
 {
 
-const double DEGREES = tilt_lens::DEGREES_PER_RADIAN;
+const double DEGREES = tilt_lens::DegreesPerRadian;
 
 /// `a` as it reads on the same side of the fold at +-90 degrees as `near`.
 TiltAngles Unfold(TiltAngles a, const TiltAngles& near)
@@ -33,7 +33,7 @@ TiltAngles Unfold(TiltAngles a, const TiltAngles& near)
 
 Eigen::Vector2d TiltVector(double lens_tilt_deg, double tilt_direction_deg)
 {
-	const double direction = tilt_direction_deg * tilt_lens::PI / 180;
+	const double direction = tilt_direction_deg * tilt_lens::Pi / 180;
 	return lens_tilt_deg * Eigen::Vector2d(std::sin(direction), std::cos(direction));
 }
 

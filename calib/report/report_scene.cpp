@@ -226,7 +226,7 @@ private:
 	/// From over the camera's shoulder; from ahead of it where that would show the plane of focus edge-on; else from higher up.
 	ViewAxes AxesThatShowThePlane() const
 	{
-		const double degree = tilt_lens::PI / 180, enough = 0.35;
+		const double degree = tilt_lens::Pi / 180, enough = 0.35;
 		// A lens focused at infinity has no plane to show.
 		const Vec3<double> m = tilt_lens::MaxAbs(scene.q) > 0 ? tilt_lens::Normalized(scene.q) : AHEAD;
 		ViewAxes best{};
@@ -326,7 +326,7 @@ private:
 		Polygon rim, sensor;
 		for (int k = 0; k < 48; ++k)
 		{
-			const double a = 2 * tilt_lens::PI * k / 48;
+			const double a = 2 * tilt_lens::Pi * k / 48;
 			rim.push_back(scene.d / 2 * (std::cos(a) * basis.a + std::sin(a) * basis.b));
 		}
 		for (const Vec3<double>& corner : scene.corner_rays)

@@ -17,7 +17,7 @@ namespace tiltcal
 namespace
 {
 
-const double RADIANS = tilt_lens::RADIANS_PER_DEGREE;
+const double RADIANS = tilt_lens::RadiansPerDegree;
 
 double Kappa(const SceneParts& scene, const Vec3<double>& v)
 {

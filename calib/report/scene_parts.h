@@ -21,7 +21,7 @@ struct BoardPart
 	std::vector<std::array<Vec3<double>, 2>> sharp;       ///< where the board meets the surface of focus
 };
 
-/// One state. Camera frame of DESIGN.md section 2 (x right, y up, z forward, origin at the lens centre), mm. Without the
+/// One state. Camera frame (x right, y up, z forward, origin at the lens centre), mm. Without the
 /// distortion, which a sketch of this size does not show.
 struct SceneParts
 {

@@ -23,7 +23,7 @@ namespace
 // Ordered: people read this file.
 using Json = nlohmann::ordered_json;
 
-const double DEGREES = tilt_lens::DEGREES_PER_RADIAN;
+const double DEGREES = tilt_lens::DegreesPerRadian;
 
 /// name_unit and name_sigma_unit.
 void Put(Json& json, const std::string& name, const std::string& unit, const Estimate& e)

@@ -10,7 +10,7 @@
 namespace tiltcal
 {
 
-/// calibration.json (DESIGN.md section 5). Frames: camera.h, X_camera = rotation
+/// calibration.json. Frames: camera.h, X_camera = rotation
 /// X_board + translation_mm. Beside every estimate its standard deviation, `_sigma`
 /// before the unit. "comparison": the paper's model on the same photographs. "render": the
 /// distortion-free camera of the .inc. An infinite number is written as null.

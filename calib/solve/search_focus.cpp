@@ -109,7 +109,7 @@ std::vector<Candidate> Starts(const BlurFit& fit, const Unknowns& x, size_t stat
 			for (int direction = 0; direction < (slope > 0 ? 12 : 1); ++direction)
 			{
 				Candidate c{ x, 0 };
-				const auto m = tilt_lens::FocalPlaneDirection(std::atan(slope), direction * tilt_lens::PI / 6);
+				const auto m = tilt_lens::FocalPlaneDirection(std::atan(slope), direction * tilt_lens::Pi / 6);
 				c.x.state[state] = StateOfPlane(fit.model, tilt_lens::PlaneAtDistance(m, k * distance), fit.w_mm);
 				size_t n = 0;
 				for (const Observation& o : fit.observations)

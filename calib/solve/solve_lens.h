@@ -28,7 +28,7 @@ Solution SolvePlane(const Task& task, const Geometry& geometry);
 /// refusals are SolvePlane's, except that the focal length cannot decide between two planes.
 Solution SolveRigid(const Task& task, const Geometry& geometry);
 
-/// SolvePlane, and the field curvature C common to all states (tilt_lens/field_curvature.h): the
+/// SolvePlane, and the field curvature C common to all states (lens/field_curvature.h): the
 /// plane q.P = 1 touches the bowl on the lens axis, so that its tilt is the lens's. One curvature, or a
 /// tangential and a sagittal one where that predicts photographs left out better; C is then
 /// their mean. Fills held_out_px.

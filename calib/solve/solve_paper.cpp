@@ -203,7 +203,7 @@ Estimate SolveStageTwo(const std::vector<StageTwoCost>& costs, StateLens& lens)
 	double best = 0, least = std::numeric_limits<double>::infinity();
 	for (int k = -440; k <= 440; ++k)
 	{
-		const double t = std::tan(k * 0.2 * tilt_lens::PI / 180);
+		const double t = std::tan(k * 0.2 * tilt_lens::Pi / 180);
 		const double value = SumOfSquares(costs, t);
 		if (value < least)
 			least = value, best = t;

@@ -34,7 +34,7 @@ void DrawPattern(cairo_t* c, const TargetPage& page)
 		for (const PagePoint& p : CircleCentres(page))
 		{
 			cairo_new_sub_path(c);
-			cairo_arc(c, p.x, p.y, 0.5 * page.target.circle_diameter_mm, 0, 2 * tilt_lens::PI);
+			cairo_arc(c, p.x, p.y, 0.5 * page.target.circle_diameter_mm, 0, 2 * tilt_lens::Pi);
 		}
 	cairo_fill(c);
 }

@@ -97,8 +97,8 @@ const int NeighbourReach = 2;
 /// Variance per sample that is assumed of a pixel, from what it and its neighbours
 /// found by themselves. A few samples can miss what covers a few percent of the lens
 /// and then find nothing to be uncertain about; of 25 pixels hardly all miss it. Near
-/// neighbours count most. Beyond left..right, top..bottom (inclusive), the picture,
-/// nobody votes.
+/// neighbours count most. Pixels beyond left..right, top..bottom (inclusive), the
+/// picture, do not count.
 inline double NeighbourhoodVariance(const UncertaintyMap& of, int x, int y, int left, int top, int right, int bottom)
 {
 	double near_sum = 0.0, far_sum = 0.0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 //
-// Pi, and degrees.
+// Pi and degrees, for everything here. Free of POV-Ray.
 
 #ifndef TILT_LENS_ANGLES_H
 #define TILT_LENS_ANGLES_H
@@ -8,9 +8,9 @@
 namespace tilt_lens
 {
 
-constexpr double PI = 3.14159265358979323846;
-constexpr double RADIANS_PER_DEGREE = PI / 180;
-constexpr double DEGREES_PER_RADIAN = 180 / PI;
+const double Pi = 3.14159265358979323846;
+const double RadiansPerDegree = Pi / 180.0;
+const double DegreesPerRadian = 180.0 / Pi;
 
 }
 

@@ -13,6 +13,7 @@
 
 #include <cmath>
 
+#include "lens/angles.h"
 #include "lens/pupil.h"
 
 namespace tilt_lens
@@ -64,7 +65,7 @@ inline Blades MakeBlades(int count, double rotation, double curvature)
 	Blades b;
 	b.count = count;
 	b.rotation = rotation;
-	b.half_angle = 3.14159265358979323846 / count;
+	b.half_angle = Pi / count;
 	b.half_chord = std::sin(b.half_angle);
 	// The arc's height over its chord; from it the circle through the three points.
 	const double height = curvature * 2.0 * std::sin(0.5 * b.half_angle) * std::sin(0.5 * b.half_angle);

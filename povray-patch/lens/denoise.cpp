@@ -39,16 +39,16 @@ static_assert(Margin == DenoiseReach, "the header promises how far pixels look")
 /// Two parts of a band of the picture, with margins, and what is best so far.
 struct Band
 {
-	Plane first[3], later[3], mean[PictureChannels];
-	Plane variance;                     // of the mean, own estimate, smoothed
-	Plane cost, best[PictureChannels];
+	PixelPlane first[3], later[3], mean[PictureChannels];
+	PixelPlane variance;                     // of the mean, own estimate, smoothed
+	PixelPlane cost, best[PictureChannels];
 	bool used[PictureChannels];         // not 0 everywhere, as transparency mostly is
-	Plane rows, smooth, other, bias, noise, weight;   // for Try: fresh memory for every kernel is slow
+	PixelPlane rows, smooth, other, bias, noise, weight;   // for TryKernel: fresh memory for every kernel is slow
 };
 
-Plane Cut(const NoisyPicture& picture, const std::vector<float>& from, int top, int bottom)
+PixelPlane CutPlane(const NoisyPicture& picture, const std::vector<float>& from, int top, int bottom)
 {
-	Plane p(picture.width + 2 * Margin, bottom - top + 1 + 2 * Margin);
+	PixelPlane p(picture.width + 2 * Margin, bottom - top + 1 + 2 * Margin);
 	for(int y = 0; y < p.height; y++)
 	{
 		const size_t row = size_t(Reflected(top - Margin + y, picture.height)) * picture.width;
@@ -60,13 +60,13 @@ Plane Cut(const NoisyPicture& picture, const std::vector<float>& from, int top, 
 
 void CutBand(const NoisyPicture& picture, int top, int bottom, Band& band)
 {
-	const Plane share = Cut(picture, picture.share, top, bottom);
+	const PixelPlane share = CutPlane(picture, picture.share, top, bottom);
 	for(int c = 0; c < PictureChannels; c++)
-		band.mean[c] = Cut(picture, picture.mean[c], top, bottom);
-	Plane variance(share.width, share.height);
+		band.mean[c] = CutPlane(picture, picture.mean[c], top, bottom);
+	PixelPlane variance(share.width, share.height);
 	for(int c = 0; c < 3; c++)
 	{
-		band.first[c] = Cut(picture, picture.first[c], top, bottom);
+		band.first[c] = CutPlane(picture, picture.first[c], top, bottom);
 		band.later[c] = band.mean[c];
 		for(size_t i = 0; i < share.v.size(); i++)
 		{
@@ -78,8 +78,8 @@ void CutBand(const NoisyPicture& picture, int top, int bottom, Band& band)
 			variance.v[i] += difference * difference * s * (1.0f - s) * (NetGain / 3.0f);
 		}
 	}
-	for(Plane *p : { &band.rows, &band.smooth, &band.other, &band.bias, &band.noise, &band.weight, &band.variance })
-		*p = Plane(share.width, share.height);
+	for(PixelPlane *p : { &band.rows, &band.smooth, &band.other, &band.bias, &band.noise, &band.weight, &band.variance })
+		*p = PixelPlane(share.width, share.height);
 	Smooth(variance, band.rows, band.variance);
 	for(float& v : band.variance.v)
 		v += 1e-14f;                    // flat parts divide by it
@@ -92,7 +92,7 @@ void CutBand(const NoisyPicture& picture, int top, int bottom, Band& band)
 }
 
 /// Takes the kernel's result where it promises more than what is best so far.
-void Try(const Kernel& kernel, Band& band)
+void TryKernel(const Kernel& kernel, Band& band)
 {
 	const size_t pixels = band.cost.v.size();
 	for(size_t i = 0; i < pixels; i++)
@@ -139,7 +139,7 @@ double DenoiseRows(const NoisyPicture& picture, int top, int bottom, std::vector
 
 	CutBand(picture, top, bottom, band);
 	for(const Kernel& kernel : kernels)
-		Try(kernel, band);
+		TryKernel(kernel, band);
 
 	for(int y = top; y <= bottom; y++)
 		for(int x = 0; x < picture.width; x++)

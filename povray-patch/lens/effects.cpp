@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "lens/angles.h"
 #include "lens/check_effects.h"
 #include "lens/effects.h"
 #include "lens/field_curvature.h"
@@ -9,6 +10,7 @@
 #include "lens/optical_vignetting.h"
 #include "lens/optics.h"
 #include "lens/pupil_magnification.h"
+#include "lens/words.h"
 
 namespace tilt_lens
 {
@@ -97,7 +99,7 @@ void CutByRims(const TiltLens& lens, LensRay& ray)
 	}
 }
 
-bool Always(const TiltLens&) { return true; }
+bool EveryLens(const TiltLens&) { return true; }
 bool MagnifiesPupils(const TiltLens& lens) { return lens.pupil_magnification != 1.0; }
 bool MagnifiesColours(const TiltLens& lens) { return lens.lateral[RedWavelength] != 0.0 || lens.lateral[BlueWavelength] != 0.0; }
 bool FocusesColours(const TiltLens& lens) { return lens.axial[RedWavelength] != 0.0 || lens.axial[BlueWavelength] != 0.0; }
@@ -112,44 +114,44 @@ bool IsCurved(const TiltLens& lens) { return lens.Curves(); }
 bool FallsOff(const TiltLens& lens) { return lens.natural_vignetting; }
 bool HasRims(const TiltLens& lens) { return lens.rim_count > 0; }
 /// The usual case, for which no ray has to ask.
-bool HasOneBefore(const TiltLens& lens) { return lens.rim_count == 1 && !(lens.rims[0].distance < 0.0); }
-bool HasOthers(const TiltLens& lens) { return HasRims(lens) && !HasOneBefore(lens); }
+bool HasOneRimBefore(const TiltLens& lens) { return lens.rim_count == 1 && !(lens.rims[0].distance < 0.0); }
+bool HasOtherRims(const TiltLens& lens) { return HasRims(lens) && !HasOneRimBefore(lens); }
 
-/// All there is, in the order in which a ray meets it. Those without a word are the lens itself;
+/// All there is, in the order in which a ray meets it. Those without a name are the lens itself;
 /// those without a step cost rays nothing here.
 const struct
 {
-	const char *word;
+	std::string name;               ///< its word, by which statistics call it
 	bool (*is_on)(const TiltLens& lens);
 	LensStep step;
 	bool moves_pinhole_rays;        ///< does something without an opening too
 }
-Order[] =
+StepsInOrder[] =
 {
-	{ "shift", &IsShifted, NULL, false },       // of the window, once (lens_spec.cpp)
-	{ "pupil_magnification", &MagnifiesPupils, &PassPupils, true },
-	{ "chromatic lateral", &MagnifiesColours, &MagnifyColour, true },
-	{ "distortion", &Distorts, &Undistort, true },
+	{ NameOf(Word::Shift), &IsShifted, NULL, false },       // of the window, once (lens_spec.cpp)
+	{ NameOf(Word::PupilMagnification), &MagnifiesPupils, &PassPupils, true },
+	{ NameOf(Word::LateralChromatic), &MagnifiesColours, &MagnifyColour, true },
+	{ NameOf(Word::Distortion), &Distorts, &Undistort, true },
 	{ "", &IsRound, &OpenDisc, false },
-	{ "blades", &HasBlades, &OpenBlades, false },
+	{ NameOf(Word::Blades), &HasBlades, &OpenBlades, false },
 	{ "", &IsSquare, &OpenSquare, false },
-	{ "bokeh", &HasBokeh, NULL, false },        // weighs the light when it is there (trace_tilt_lens.cpp)
+	{ "bokeh", &HasBokeh, NULL, false },        // POV-Ray's word; weighs the light when it is there (trace_tilt_lens.cpp)
 	{ "", &IsFlat, &FocusOnPlane, false },
-	{ "field_curvature", &IsCurved, &FocusOnBowl, false },
-	{ "chromatic axial", &FocusesColours, &FocusColour, false },
-	{ "", &Always, &LeaveLens, false },
-	{ "vignetting natural", &FallsOff, &DarkenNaturally, true },
-	{ "vignetting optical", &HasOneBefore, &CutByRim, true },
-	{ "vignetting optical", &HasOthers, &CutByRims, true }
+	{ NameOf(Word::FieldCurvature), &IsCurved, &FocusOnBowl, false },
+	{ NameOf(Word::AxialChromatic), &FocusesColours, &FocusColour, false },
+	{ "", &EveryLens, &LeaveLens, false },
+	{ NameOf(Word::NaturalVignetting), &FallsOff, &DarkenNaturally, true },
+	{ NameOf(Word::OpticalVignetting), &HasOneRimBefore, &CutByRim, true },
+	{ NameOf(Word::OpticalVignetting), &HasOtherRims, &CutByRims, true }
 };
 
-void Take(const LensSpec& spec, TiltLens& lens)
+void CopyEffectWords(const LensSpec& spec, TiltLens& lens)
 {
 	lens.distorts = spec.distortion_given;
 	std::copy(spec.distortion, spec.distortion + DistortionTerms, lens.distortion);
 	lens.field_curvature = spec.field_curvature.value;
 	if(spec.blades)
-		lens.blades = MakeBlades(int(spec.blades.value), spec.blade_rotation.value * 3.14159265358979323846 / 180.0, spec.blade_curvature.value);
+		lens.blades = MakeBlades(int(spec.blades.value), spec.blade_rotation.value * Pi / 180.0, spec.blade_curvature.value);
 	lens.bokeh = spec.bokeh && !lens.IsPinhole();
 	lens.square = spec.bokeh && !spec.blades;
 	lens.shifted = spec.shift.value.x != 0.0 || spec.shift.value.y != 0.0;
@@ -161,17 +163,17 @@ void Take(const LensSpec& spec, TiltLens& lens)
 	std::copy(spec.axial, spec.axial + Wavelengths, lens.axial);
 }
 
-static_assert(sizeof(Order) / sizeof(Order[0]) <= MostLensSteps, "raise MostLensSteps");
+static_assert(sizeof(StepsInOrder) / sizeof(StepsInOrder[0]) <= MostLensSteps, "raise MostLensSteps");
 
 void SettleSteps(TiltLens& lens)
 {
 	int n = 0;
-	for(const auto& effect : Order)
+	for(const auto& effect : StepsInOrder)
 	{
 		if(effect.step == NULL || !effect.is_on(lens))
 			continue;
 		lens.steps[n++] = effect.step;
-		lens.has_effects |= effect.word[0] != '\0' || effect.step == &OpenSquare;
+		lens.has_effects |= !effect.name.empty() || effect.step == &OpenSquare;
 		lens.moves_pinhole_rays |= effect.moves_pinhole_rays;
 	}
 	lens.steps[n] = NULL;
@@ -184,7 +186,7 @@ void SettleSteps(TiltLens& lens)
 void ResolveEffects(const LensSpec& spec, const CameraVectors& camera, TiltLens& lens)
 {
 	CheckEffectWords(spec);
-	Take(spec, lens);
+	CopyEffectWords(spec, lens);
 	if(lens.distorts)
 		CheckDistortion(lens, camera);
 	CheckFocus(lens, camera);
@@ -195,9 +197,9 @@ void ResolveEffects(const LensSpec& spec, const CameraVectors& camera, TiltLens&
 std::string EffectNames(const TiltLens& lens)
 {
 	std::string names;
-	for(const auto& effect : Order)
-		if(effect.word[0] != '\0' && effect.is_on(lens))
-			names += (names.empty() ? "" : ", ") + std::string(effect.word);
+	for(const auto& effect : StepsInOrder)
+		if(!effect.name.empty() && effect.is_on(lens))
+			names += (names.empty() ? "" : ", ") + effect.name;
 	return names;
 }
 

@@ -2,7 +2,7 @@
 //
 // The effect `field_curvature C`: real lenses focus on a bowl instead of a plane. It
 // belongs to the lens, so it is centred on the lens's own axis, tilted as that is:
-//   kappa(v) = q.v + C (v.n) |v/(v.n) - n|^2      (DESIGN.md, section 2)
+//   kappa(v) = q.v + C (v.n) |v/(v.n) - n|^2      (MODEL.md, Field curvature)
 // v/(v.n) - n is the tangent of the field angle. The plane q.P = 1 touches the bowl on
 // the lens axis; C > 0 bends the bowl towards the lens, C < 0 away from it. C is in
 // 1/length, like q. kappa is homogeneous of degree 1 in v, as q.v is, so that directions

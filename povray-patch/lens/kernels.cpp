@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdlib>
 
+#include "lens/angles.h"
 #include "lens/kernels.h"
 
 namespace tilt_lens
@@ -31,14 +32,14 @@ namespace
 
 // GCC's and clang's vectors: plain loops over an array of sums are not kept in registers.
 typedef float Lanes __attribute__((vector_size(32), aligned(4), may_alias));
-const int LaneCount = sizeof(Lanes) / sizeof(float), Together = 4 * LaneCount;
+const int LaneCount = sizeof(Lanes) / sizeof(float), LanesAtATime = 4 * LaneCount;
 
 /// target[x] = sum of taps, 0 <= x < count; a tap's source is source + offset.
 TILT_LENS_VECTORS
 void SumTaps(const float *source, const std::ptrdiff_t *offset, const float *weight, size_t taps, float *target, int count)
 {
 	int x = 0;
-	for(; x + Together <= count; x += Together)
+	for(; x + LanesAtATime <= count; x += LanesAtATime)
 	{
 		Lanes a = {}, b = {}, c = {}, d = {};
 		for(size_t t = 0; t < taps; t++)
@@ -65,7 +66,7 @@ void SumTaps(const float *source, const std::ptrdiff_t *offset, const float *wei
 }
 
 /// The sum of taps at every pixel, except so many columns and rows along the edges.
-void Convolve(const Plane& from, const std::vector<Tap>& taps, Plane& to, int columns, int rows)
+void Convolve(const PixelPlane& from, const std::vector<Tap>& taps, PixelPlane& to, int columns, int rows)
 {
 	std::vector<std::ptrdiff_t> offsets;
 	std::vector<float> weights;
@@ -97,7 +98,7 @@ std::vector<float> HalfGaussian(double sigma, int reach)
 
 /// Separable convolution with weights half[|i|], columns after rows; not on `edge` >= the
 /// kernel's reach pixels along the edges.
-void Separable(const Plane& p, const std::vector<float>& half, int edge, Plane& rows, Plane& result)
+void Separable(const PixelPlane& p, const std::vector<float>& half, int edge, PixelPlane& rows, PixelPlane& result)
 {
 	std::vector<Tap> across, down;
 	for(int i = 1 - int(half.size()); i < int(half.size()); i++)
@@ -138,7 +139,7 @@ Kernel::Kernel(double along, double across, double angle)
 	}
 }
 
-void Kernel::Apply(const Plane& p, bool squared, Plane& rows, Plane& result) const
+void Kernel::Apply(const PixelPlane& p, bool squared, PixelPlane& rows, PixelPlane& result) const
 {
 	if(half.empty())
 	{
@@ -160,7 +161,7 @@ void Kernel::Apply(const Plane& p, bool squared, Plane& rows, Plane& result) con
 
 std::vector<Kernel> AllKernels()
 {
-	const double pi_4 = 0.78539816339744830962;
+	const double pi_4 = 0.25 * Pi;
 	std::vector<Kernel> kernels;
 	for(double sigma : { 0.5, 0.8, 1.2, 1.8, 2.7, 4.0 })
 		kernels.push_back(Kernel(sigma, sigma, 0.0));
@@ -170,7 +171,7 @@ std::vector<Kernel> AllKernels()
 	return kernels;
 }
 
-void Smooth(const Plane& p, Plane& rows, Plane& result)
+void Smooth(const PixelPlane& p, PixelPlane& rows, PixelPlane& result)
 {
 	static const std::vector<float> half = HalfGaussian(2.0, SmoothingReach);
 	Separable(p, half, SmoothingReach, rows, result);

@@ -12,12 +12,12 @@ namespace tilt_lens
 {
 
 /// Numbers of a rectangle of pixels, row by row.
-struct Plane
+struct PixelPlane
 {
 	int width, height;
 	std::vector<float> v;
 
-	explicit Plane(int w = 0, int h = 0) : width(w), height(h), v(size_t(w) * h, 0.0f) {}
+	explicit PixelPlane(int w = 0, int h = 0) : width(w), height(h), v(size_t(w) * h, 0.0f) {}
 	float& At(int x, int y) { return v[size_t(y) * width + x]; }
 };
 
@@ -44,14 +44,14 @@ class Kernel
 		Kernel(double sigma_along, double sigma_across, double angle);
 
 		/// p and result are of one size, as is `rows`, which is for the function's own use.
-		void Apply(const Plane& p, Plane& rows, Plane& result) const { Apply(p, false, rows, result); }
+		void Apply(const PixelPlane& p, PixelPlane& rows, PixelPlane& result) const { Apply(p, false, rows, result); }
 		/// With squared weights: variance of what Apply gives, from the variances of pixels.
-		void ApplySquared(const Plane& p, Plane& rows, Plane& result) const { Apply(p, true, rows, result); }
+		void ApplySquared(const PixelPlane& p, PixelPlane& rows, PixelPlane& result) const { Apply(p, true, rows, result); }
 	private:
 		std::vector<float> half;        // a round one in two passes: weights at 0, 1, 2, ...
 		std::vector<Tap> taps, squares; // a stroke, and with squared weights
 
-		void Apply(const Plane& p, bool squared, Plane& rows, Plane& result) const;
+		void Apply(const PixelPlane& p, bool squared, PixelPlane& rows, PixelPlane& result) const;
 };
 
 /// Round kernels from half a pixel to four, and strokes in four directions.
@@ -61,7 +61,7 @@ std::vector<Kernel> AllKernels();
 const int SmoothingReach = 6;
 
 /// Gaussian average, sigma 2 pixels. As with kernels, nothing holds so near to the edges.
-void Smooth(const Plane& p, Plane& rows, Plane& result);
+void Smooth(const PixelPlane& p, PixelPlane& rows, PixelPlane& result);
 
 }
 

@@ -3,20 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lens/angles.h"
 #include "lens/effects.h"
 #include "lens/field_curvature.h"
 #include "lens/lens_spec.h"
 #include "lens/optics.h"
 #include "lens/ray_range.h"
 #include "lens/refusal.h"
+#include "lens/words.h"
 
 namespace tilt_lens
 {
 
 namespace
 {
-
-const double RadiansPerDegree = 3.14159265358979323846 / 180.0;
 
 void RequireFinite(const char* word, const Given<double>& value)
 {
@@ -45,17 +45,33 @@ void RequireTilt(const char* word, const Given<double>& value)
 		       "state such a plane with focal_plane or focal_points.", word, value.value);
 }
 
+void RequireNotNegative(const char* word, const Given<double>& value)
+{
+	RequireFinite(word, value);
+	if(value && value.value < 0.0)
+		Refuse("tilt_lens: %s must not be negative, but is %g.", word, value.value);
+}
+
+const struct
+{
+	Range range;
+	void (*require)(const char* word, const Given<double>& value);
+}
+RangeChecks[] =
+{
+	{ Range::Tilt, &RequireTilt },
+	{ Range::Finite, &RequireFinite },
+	{ Range::Positive, &RequirePositive },
+	{ Range::NotNegative, &RequireNotNegative }
+};
+
 void CheckRanges(const LensSpec& spec)
 {
-	RequireTilt("focal_plane_tilt", spec.focal_plane_tilt);
-	RequireTilt("lens_tilt", spec.lens_tilt);
-	RequireFinite("tilt_direction", spec.tilt_direction);
-	RequirePositive("image_distance", spec.image_distance);
-	RequirePositive("focal_length", spec.focal_length);
-	RequirePositive("f_stop", spec.f_stop);
-	RequireFinite("aperture_diameter", spec.aperture_diameter);
-	if(spec.aperture_diameter && spec.aperture_diameter.value < 0.0)
-		Refuse("tilt_lens: aperture_diameter must not be negative, but is %g.", spec.aperture_diameter.value);
+	// By ranges: of several numbers that no lens has, the tilt is named first.
+	for(const auto& check : RangeChecks)
+		for(const WordRow& row : Words)
+			if(row.number != NULL && row.range == check.range)
+				check.require(row.word, spec.*row.number);
 	if(!IsFinite(spec.aperture))
 		Refuse("tilt_lens: aperture is not a finite number.");
 	if(spec.shift)
@@ -106,7 +122,7 @@ void CheckContradictions(const LensSpec& spec)
 		Refuse("tilt_lens: aperture contradicts aperture_diameter or f_stop; give one of them.");
 }
 
-/// The camera frame of DESIGN.md, section 2, as world vectors.
+/// The camera frame of MODEL.md as world vectors.
 struct Frame
 {
 	Vec3d location, x, y, z;

@@ -19,6 +19,8 @@ namespace tilt_lens
 
 typedef Vec3<double> Vec3d;
 
+enum class Word;        // words.h
+
 /// A value that a scene may leave out.
 template<typename T>
 struct Given
@@ -97,7 +99,7 @@ struct CameraVectors
 };
 
 /// The resolved lens. World vectors unless a name says camera (frame of
-/// DESIGN.md section 2: x right, y up, z along the axis).
+/// MODEL.md: x right, y up, z along the axis).
 struct TiltLens
 {
 	Vec3d direction;                    ///< centre of the viewing window, shift included

@@ -11,6 +11,7 @@
 
 #include <cmath>
 
+#include "lens/angles.h"
 #include "lens/vec3.h"
 
 namespace tilt_lens
@@ -79,7 +80,6 @@ inline T OverlapOfDiscs(const T& a, const T& b, const T& d)
 {
 	using std::atan2;
 	using std::sqrt;
-	const double pi = 3.14159265358979323846;
 	if(d >= a + b)
 		return T(0);
 	const bool a_is_smaller = a < b;
@@ -88,7 +88,7 @@ inline T OverlapOfDiscs(const T& a, const T& b, const T& d)
 	// Half the chord that the circles share, as a product that keeps its digits.
 	const T product = (a + b - d) * (a + b + d) * (d + a - b) * (d - a + b);
 	if(!(product > 1e-24 * (a + b) * (a + b) * (a + b) * (a + b)))
-		return d < larger ? pi * smaller * smaller : T(0);
+		return d < larger ? Pi * smaller * smaller : T(0);
 	const T chord = sqrt(product) / (2.0 * d);
 	const T from_a = (d * d + (a - b) * (a + b)) / (2.0 * d);
 	return a * a * atan2(chord, from_a) + b * b * atan2(chord, d - from_a) - d * chord;
@@ -105,7 +105,7 @@ inline T OpenShare(const RimView<T>& view, const T& lens_radius, const T& rim_ra
 	const T distance = squared > T(0) ? sqrt(squared) : T(0);
 	if(!(image > T(0)))
 		return T(distance > rim_radius ? 0 : 1);
-	return OverlapOfDiscs(image, rim_radius, distance) / (3.14159265358979323846 * image * image);
+	return OverlapOfDiscs(image, rim_radius, distance) / (Pi * image * image);
 }
 
 }

@@ -3,7 +3,7 @@
 // The optics of a tilted lens. One formula, one place: the camera in POV-Ray
 // (double) and the calibrator's Ceres costs (Jets) both call these functions.
 //
-// Model and conventions (DESIGN.md, section 2)
+// Model and conventions (MODEL.md)
 //   Camera frame: origin at the lens centre, z forward (the optical axis, normal
 //   to the sensor), x right, y up. The sensor lies at z = -w.
 //   Any unit of length, the same one everywhere; q and kappa are in 1/unit.

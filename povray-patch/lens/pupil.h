@@ -7,6 +7,8 @@
 
 #include <cmath>
 
+#include "lens/angles.h"
+
 namespace tilt_lens
 {
 
@@ -31,7 +33,7 @@ inline void SineAndCosine(double x, double& sine, double& cosine)
 /// distortion map between disk and square" (1997). u, v in [0, 1]; |result| <= 1.
 inline PupilPoint SquareToDisc(double u, double v)
 {
-	const double pi_4 = 0.78539816339744830962;
+	const double pi_4 = 0.25 * Pi;
 	const double a = 2.0 * u - 1.0;
 	const double b = 2.0 * v - 1.0;
 	double sine, cosine;

@@ -5,6 +5,7 @@
 #include <cstdarg>
 #include <cstdio>
 
+#include "lens/angles.h"
 #include "lens/effects.h"
 #include "lens/optics.h"
 #include "lens/statistics.h"
@@ -85,8 +86,6 @@ FocusCounts CountFocus(const TiltLens& lens, const CameraVectors& camera,
 
 namespace
 {
-
-const double DegreesPerRadian = 180.0 / 3.14159265358979323846;
 
 __attribute__((format(printf, 2, 3)))
 void Append(std::string& text, const char* format, ...)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 //
-// Parsing of the effects in camera { tilt_lens { ... } } that take more than a number.
+// Parsing of the words in camera { tilt_lens { ... } } that take options of their own.
 
 #include <cstring>
 
@@ -9,6 +9,7 @@
 #include "backend/parser/parse.h"
 #include "backend/scene/camera.h"
 #include "backend/tilt_lens/bokeh.h"
+#include "lens/words.h"
 
 // this must be the last file included
 #include "base/povdebug.h"
@@ -18,6 +19,8 @@ namespace pov
 
 using tilt_lens::Given;
 using tilt_lens::LensSpec;
+using tilt_lens::RowOf;
+using tilt_lens::Word;
 
 /// Whether the current token is a word, as which the block's words arrive: a name, or what
 /// the scene has declared under that name.
@@ -39,8 +42,7 @@ bool Parser::Accept_Tilt_Lens_Word(const char *word)
 /// distortion K1 [, K2 ...]
 void Parser::Parse_Tilt_Lens_Distortion(LensSpec& spec)
 {
-	if (spec.distortion_given)
-		Error("tilt_lens: distortion is given twice.");
+	Refuse_Tilt_Lens_Word_Twice(spec.distortion_given, Word::Distortion);
 	spec.distortion_given = true;
 	spec.distortion[0] = Parse_Float();
 	for (int i = 1; i < tilt_lens::DistortionTerms; i++)
@@ -60,8 +62,7 @@ void Parser::Parse_Tilt_Lens_Distortion(LensSpec& spec)
 /// blades N [rotation A] [curvature C]
 void Parser::Parse_Tilt_Lens_Blades(LensSpec& spec)
 {
-	if (spec.blades.given)
-		Error("tilt_lens: blades is given twice.");
+	Refuse_Tilt_Lens_Word_Twice(spec.blades.given, Word::Blades);
 	spec.blades = Parse_Float();
 	if (Accept_Tilt_Lens_Word("rotation"))
 		spec.blade_rotation = Parse_Float();
@@ -76,13 +77,12 @@ void Parser::Parse_Tilt_Lens_Vignetting(LensSpec& spec)
 
 	while (true)
 	{
-		if (Accept_Tilt_Lens_Word("natural"))
+		if (Accept_Tilt_Lens_Word(RowOf(Word::NaturalVignetting).option))
 		{
-			if (spec.natural_vignetting)
-				Error("tilt_lens: vignetting natural is given twice.");
+			Refuse_Tilt_Lens_Word_Twice(spec.natural_vignetting, Word::NaturalVignetting);
 			spec.natural_vignetting = true;
 		}
-		else if (Accept_Tilt_Lens_Word("optical"))
+		else if (Accept_Tilt_Lens_Word(RowOf(Word::OpticalVignetting).option))
 		{
 			if (spec.rim_count > 0)
 				Error("tilt_lens: vignetting optical is given twice; give another rim behind a comma: optical R, Z, R, Z.");
@@ -111,19 +111,18 @@ void Parser::Parse_Tilt_Lens_Vignetting(LensSpec& spec)
 /// chromatic [lateral CR, CB] [axial AR, AB]
 void Parser::Parse_Tilt_Lens_Chromatic(LensSpec& spec)
 {
-	static const struct { const char *word; bool LensSpec::*given; double (LensSpec::*value)[tilt_lens::Wavelengths]; } kinds[] =
+	static const struct { Word word; bool LensSpec::*given; double (LensSpec::*value)[tilt_lens::Wavelengths]; } kinds[] =
 	{
-		{ "lateral", &LensSpec::lateral_given, &LensSpec::lateral },
-		{ "axial", &LensSpec::axial_given, &LensSpec::axial }
+		{ Word::LateralChromatic, &LensSpec::lateral_given, &LensSpec::lateral },
+		{ Word::AxialChromatic, &LensSpec::axial_given, &LensSpec::axial }
 	};
 	bool known = false;
 
 	for (int i = 0; i < 2; i++)
 	{
-		if (!Accept_Tilt_Lens_Word(kinds[i].word))
+		if (!Accept_Tilt_Lens_Word(RowOf(kinds[i].word).option))
 			continue;
-		if (spec.*kinds[i].given)
-			Error("tilt_lens: chromatic %s is given twice.", kinds[i].word);
+		Refuse_Tilt_Lens_Word_Twice(spec.*kinds[i].given, kinds[i].word);
 		known = spec.*kinds[i].given = true;
 		(spec.*kinds[i].value)[tilt_lens::RedWavelength] = Parse_Float();
 		Parse_Comma();
@@ -131,6 +130,19 @@ void Parser::Parse_Tilt_Lens_Chromatic(LensSpec& spec)
 	}
 	if (!known)
 		Error("tilt_lens: chromatic takes lateral, axial or both, in this order, each with a value for red and one for blue.");
+}
+
+/// show focus, show plane
+void Parser::Parse_Tilt_Lens_Show(LensSpec& spec)
+{
+	Get_Token();
+	// plane is one of POV-Ray's own words, focus a name like any other.
+	if (Token.Token_Id == PLANE_TOKEN)
+		spec.show_plane = true;
+	else if (Is_Tilt_Lens_Word(RowOf(Word::ShowFocus).option))
+		spec.show_focus = true;
+	else
+		Error("tilt_lens: show takes focus or plane.");
 }
 
 /// camera { bokeh { pigment { ... } } }: how much light it lets through, once the lens is resolved.

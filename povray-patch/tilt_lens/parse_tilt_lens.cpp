@@ -15,6 +15,7 @@
 #include "backend/tilt_lens/camera_vectors.h"
 #include "backend/tilt_lens/denoised_picture.h"
 #include "backend/tilt_lens/tile_borders.h"
+#include "lens/words.h"
 
 // this must be the last file included
 #include "base/povdebug.h"
@@ -25,11 +26,7 @@ namespace pov
 using tilt_lens::Given;
 using tilt_lens::LensSpec;
 using tilt_lens::Vec3d;
-
-static const char Tilt_Lens_Words[] =
-	"focal_plane_tilt, lens_tilt, focal_plane, focal_points, tilt_direction, focal_distance, "
-	"image_distance, focal_length, shift, aperture_diameter, f_stop, distortion, field_curvature, "
-	"blades, vignetting, chromatic, pupil_magnification, denoise, seed, show";
+using tilt_lens::Word;
 
 // Samples per pixel where the scene gives an aperture but no blur_samples.
 static const int Default_Blur_Samples = 128;
@@ -68,99 +65,79 @@ void Parser::Parse_Tilt_Lens_Word(Camera& New)
 	VECTOR v;
 	UV_VECT uv;
 
-	static const struct { const char *word; Given<double> LensSpec::*value; } floats[] =
-	{
-		{ "focal_plane_tilt", &LensSpec::focal_plane_tilt },
-		{ "lens_tilt", &LensSpec::lens_tilt },
-		{ "tilt_direction", &LensSpec::tilt_direction },
-		{ "focal_distance", &LensSpec::focal_distance },
-		{ "image_distance", &LensSpec::image_distance },
-		{ "focal_length", &LensSpec::focal_length },
-		{ "aperture_diameter", &LensSpec::aperture_diameter },
-		{ "f_stop", &LensSpec::f_stop },
-		{ "field_curvature", &LensSpec::field_curvature },
-		{ "pupil_magnification", &LensSpec::pupil_magnification }
-	};
-
 	// seed is one of POV-Ray's own words, a function.
-	if ((Token.Token_Id == FLOAT_FUNCT_TOKEN) && (Token.Function_Id == SEED_TOKEN))
+	const bool is_seed = (Token.Token_Id == FLOAT_FUNCT_TOKEN) && (Token.Function_Id == SEED_TOKEN);
+	// A name that the scene has declared arrives as that value's token.
+	const bool is_name = (Token.Token_Id == IDENTIFIER_TOKEN) || (Token.Data != NULL);
+	if (!is_seed && !is_name)
+		Expectation_Error(tilt_lens::ListOfWords().c_str());
+	const std::string word(is_seed ? tilt_lens::NameOf(Word::Seed) : Token.Token_String);
+	const tilt_lens::WordRow *row = tilt_lens::FindWord(word);
+	if (row == NULL)
+		Error("Unknown word '%s' in the tilt_lens block; the words are %s.", word.c_str(), tilt_lens::ListOfWords().c_str());
+
+	if (row->number != NULL)
 	{
-		if (spec.seed.given)
-			Error("tilt_lens: seed is given twice.");
-		spec.seed = Parse_Float();
+		Given<double>& value = spec.*row->number;
+		Refuse_Tilt_Lens_Word_Twice(value.given, row->id);
+		value = Parse_Float();
 		return;
 	}
 
-	// A name that the scene has declared arrives as that value's token.
-	const bool is_name = (Token.Token_Id == IDENTIFIER_TOKEN) || (Token.Data != NULL);
-	if (!is_name)
-		Expectation_Error(Tilt_Lens_Words);
-	const std::string word(Token.Token_String);
-
-	for (size_t i = 0; i < sizeof(floats) / sizeof(floats[0]); i++)
+	switch (row->id)
 	{
-		if (word == floats[i].word)
-		{
-			Given<double>& value = spec.*floats[i].value;
-			if (value.given)
-				Error("tilt_lens: %s is given twice.", floats[i].word);
-			value = Parse_Float();
-			return;
-		}
-	}
-
-	if (word == "focal_plane")
-	{
-		if (spec.focal_plane_point.given)
-			Error("tilt_lens: focal_plane is given twice.");
-		Parse_Vector(v);
-		spec.focal_plane_point = From_Vector(v);
-		Parse_Comma();
-		Parse_Vector(v);
-		spec.focal_plane_normal = From_Vector(v);
-	}
-	else if (word == "focal_points")
-	{
-		if (spec.focal_points[0].given)
-			Error("tilt_lens: focal_points is given twice.");
-		for (int i = 0; i < 3; i++)
-		{
-			if (i > 0)
-				Parse_Comma();
+		case Word::FocalPlane:
+			Refuse_Tilt_Lens_Word_Twice(spec.focal_plane_point.given, row->id);
 			Parse_Vector(v);
-			spec.focal_points[i] = From_Vector(v);
-		}
+			spec.focal_plane_point = From_Vector(v);
+			Parse_Comma();
+			Parse_Vector(v);
+			spec.focal_plane_normal = From_Vector(v);
+			break;
+		case Word::FocalPoints:
+			Refuse_Tilt_Lens_Word_Twice(spec.focal_points[0].given, row->id);
+			for (int i = 0; i < 3; i++)
+			{
+				if (i > 0)
+					Parse_Comma();
+				Parse_Vector(v);
+				spec.focal_points[i] = From_Vector(v);
+			}
+			break;
+		case Word::Shift:
+			Refuse_Tilt_Lens_Word_Twice(spec.shift.given, row->id);
+			Parse_UV_Vect(uv);
+			spec.shift = Vec3d{ uv[U], uv[V], 0.0 };
+			break;
+		case Word::Distortion:
+			Parse_Tilt_Lens_Distortion(spec);
+			break;
+		case Word::Blades:
+			Parse_Tilt_Lens_Blades(spec);
+			break;
+		// The first row stands for the word, whichever option follows.
+		case Word::NaturalVignetting:
+			Parse_Tilt_Lens_Vignetting(spec);
+			break;
+		case Word::LateralChromatic:
+			Parse_Tilt_Lens_Chromatic(spec);
+			break;
+		case Word::Denoise:
+			spec.denoise = true;
+			break;
+		case Word::ShowFocus:
+			Parse_Tilt_Lens_Show(spec);
+			break;
+		default:
+			Error("tilt_lens: %s has a row in the table of words and nothing that parses it.", row->word);
 	}
-	else if (word == "shift")
-	{
-		if (spec.shift.given)
-			Error("tilt_lens: shift is given twice.");
-		Parse_UV_Vect(uv);
-		spec.shift = Vec3d{ uv[U], uv[V], 0.0 };
-	}
-	else if (word == "distortion")
-		Parse_Tilt_Lens_Distortion(spec);
-	else if (word == "blades")
-		Parse_Tilt_Lens_Blades(spec);
-	else if (word == "vignetting")
-		Parse_Tilt_Lens_Vignetting(spec);
-	else if (word == "chromatic")
-		Parse_Tilt_Lens_Chromatic(spec);
-	else if (word == "denoise")
-		spec.denoise = true;
-	else if (word == "show")
-	{
-		Get_Token();
-		// plane is one of POV-Ray's own words, focus a name like any other.
-		if (Token.Token_Id == PLANE_TOKEN)
-			spec.show_plane = true;
-		else if (Is_Tilt_Lens_Word("focus"))
-			spec.show_focus = true;
-		else
-			Error("tilt_lens: show takes focus or plane.");
-	}
-	else
-		Error("Unknown word '%s' in the tilt_lens block; the words are %s.", word.c_str(), Tilt_Lens_Words);
+}
+
+/// Refuses a word that has been given already.
+void Parser::Refuse_Tilt_Lens_Word_Twice(bool given, tilt_lens::Word word)
+{
+	if (given)
+		Error("tilt_lens: %s is given twice.", tilt_lens::NameOf(word).c_str());
 }
 
 /// The lens from the words and the camera's final vectors; parse errors for

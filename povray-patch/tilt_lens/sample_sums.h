@@ -23,13 +23,13 @@ struct SampleSums
 	int count;
 	/// Light that vignetting or a bokeh pigment kept back, in samples: what lies behind the
 	/// picture is not darkened with it.
-	double unseen;
+	double withheld;
 
 	/// Mean red, green and blue as they stood at the latest powers of two, latest first.
 	double earlier[ChangesKept + 1][3];
 	int earlier_counts[ChangesKept + 1];
 
-	SampleSums() : count(0), unseen(0.0)
+	SampleSums() : count(0), withheld(0.0)
 	{
 		for(int i = 0; i < Channels; i++)
 			sum[i] = squares[i] = 0.0;
@@ -51,8 +51,8 @@ struct SampleSums
 
 	static double Square(double x) { return x * x; }
 
-	/// A picture file holds 0 to 1: what is beyond is no error that is seen.
-	static double Seen(double x) { return std::min(1.0, std::max(0.0, x)); }
+	/// A picture file holds 0 to 1: what is beyond is not seen.
+	static double Clipped(double x) { return std::min(1.0, std::max(0.0, x)); }
 
 	void KeepMean()
 	{
@@ -76,9 +76,9 @@ struct SampleSums
 
 	Colour Mean() const
 	{
-		const double seen = count - unseen;
-		// Nothing seen: black, and nothing behind it.
-		return Colour(sum[0] / count, sum[1] / count, sum[2] / count, seen > 0.0 ? sum[3] / seen : 0.0, seen > 0.0 ? sum[4] / seen : 0.0);
+		const double arrived = count - withheld;
+		// No light arrived: black, and nothing behind it.
+		return Colour(sum[0] / count, sum[1] / count, sum[2] / count, arrived > 0.0 ? sum[3] / arrived : 0.0, arrived > 0.0 ? sum[4] / arrived : 0.0);
 	}
 
 	/// The pixel's share in the estimate of the picture's error: squared changes over
@@ -90,7 +90,7 @@ struct SampleSums
 		c.pixels = 1.0;
 		for(c.changes = 0; (c.changes < ChangesKept) && (earlier_counts[c.changes + 1] > 0); c.changes++)
 			for(int i = 0; i < 3; i++)
-				c.change[c.changes] += Square(Seen(earlier[c.changes][i]) - Seen(earlier[c.changes + 1][i])) / 3.0;
+				c.change[c.changes] += Square(Clipped(earlier[c.changes][i]) - Clipped(earlier[c.changes + 1][i])) / 3.0;
 		return c;
 	}
 

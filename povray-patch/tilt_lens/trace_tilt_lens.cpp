@@ -98,7 +98,7 @@ static inline bool Looks_Behind_Lens(const Vec3d& v, const tilt_lens::TiltLens& 
 }
 
 /// Turns the pinhole ray of a pixel, which stands in `ray`, into the ray that
-/// leaves the current lens sample (DESIGN.md, section 2). False where there is none.
+/// leaves the current lens sample (lens/MODEL.md, The lens ray). False where there is none.
 ///
 /// The pinhole direction is w v, not v; so is the result, since R is linear in v.
 bool TracePixel::SendRayThroughTiltLens(Ray& ray)
@@ -215,7 +215,7 @@ void TracePixel::AddTiltLensSample(Ray& ray, tilt_lens::SampleSums& sums, DBL x,
 		}
 	}
 	if(Weighs)
-		sums.unseen += 1.0 - weight;
+		sums.withheld += 1.0 - weight;
 	sums.Add(c);
 }
 

@@ -4,9 +4,9 @@
 
 #include <tiltcal/error.h>
 #include "base/files.h"
-#include "options.h"
-#include "progress.h"
-#include "report.h"
+#include "tiltcost/options.h"
+#include "tiltcost/progress.h"
+#include "tiltcost/report.h"
 
 #include <fmt/format.h>
 #include <spdlog/sinks/stdout_sinks.h>
@@ -110,7 +110,7 @@ void Run(const Options& options)
 	report.rows = TableRows(report.best, 10);
 	for (const Setting& setting : options.own)
 		report.own.push_back(MakeRow(pilot, report.pilot.machine, setting));
-	// Slow, and nobody reads it who asked the one question.
+	// Slow, and not printed where --time, --error or --levels asks for one setting.
 	const bool table = options.time <= 0 && options.error <= 0 && options.levels <= 0;
 	if (table || !options.csv.empty())
 		PredictDenoised(pilot, report);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
-#include "options.h"
+#include "tiltcost/options.h"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #ifndef TILTCOST_OPTIONS_H
 #define TILTCOST_OPTIONS_H
 
-#include "pilot_run.h"
+#include "tiltcost/pilot_run.h"
 
 #include <CLI/CLI.hpp>
 
@@ -18,7 +18,7 @@ namespace tiltcost
 struct Options
 {
 	Job job;
-	double time = 0, error = 0, levels = 0;     ///< the one question; 0: not asked
+	double time = 0, error = 0, levels = 0;     ///< --time, --error or --levels, at most one of them; 0: not asked
 	double stop_levels = 0.29;
 	std::vector<Setting> own;
 	std::string plot, csv;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
-#include "pilot_file.h"
+#include "tiltcost/pilot_file.h"
 
 #include <tiltcal/error.h>
 

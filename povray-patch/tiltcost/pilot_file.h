@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 //
-// What a pilot render wrote (tilt_lens/pilot.h), read back.
+// What a pilot render wrote (lens/pilot.h), read back.
 
 #ifndef TILTCOST_PILOT_FILE_H
 #define TILTCOST_PILOT_FILE_H

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
-#include "pilot_run.h"
+#include "tiltcost/pilot_run.h"
 
 #include <tiltcal/error.h>
-#include "progress.h"
+#include "tiltcost/progress.h"
 
 #include <fmt/format.h>
 

@@ -6,10 +6,10 @@
 #ifndef TILTCOST_PILOT_RUN_H
 #define TILTCOST_PILOT_RUN_H
 
-#include "pilot_file.h"
 #include "base/process.h"
 #include "base/temporary_folder.h"
-#include "search.h"
+#include "tiltcost/pilot_file.h"
+#include "tiltcost/search.h"
 
 #include <string>
 #include <vector>

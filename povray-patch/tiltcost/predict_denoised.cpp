@@ -2,7 +2,7 @@
 //
 // What denoise makes of a setting: the renderer's own function, run over the pilot's blocks.
 
-#include "prediction.h"
+#include "tiltcost/prediction.h"
 
 #include "lens/denoise.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
-#include "prediction.h"
+#include "tiltcost/prediction.h"
 
 #include <tiltcal/transfer.h>
 
@@ -99,8 +99,8 @@ size_t Pilot::Known(int count) const
 	return k;
 }
 
-/// Whether a pixel's whole neighbourhood lies in the block. Near the edge voters are missing who
-/// are there in a render: errors of settings that start with few samples came out a third too large.
+/// Whether a pixel's whole neighbourhood lies in the block. Near the edge neighbours are missing that
+/// a render has: errors of settings that start with few samples came out a third too large.
 bool Pilot::IsInside(const Block& block, int x, int y, int reach)
 {
 	// Blocks at the picture's right and bottom edge may be too narrow to have an inside.

@@ -4,15 +4,15 @@
 //
 // The pilot knows of each of its pixels the means m(n) and sample variances at n = 1, 2,
 // 4, ... N. The number of samples n that the renderer would take follows from the
-// functions that the renderer decides with (tilt_lens/adaptive.h). The expected square
+// functions that the renderer decides with (lens/adaptive.h). The expected square
 // of the error left is then (m(n) - m(N))^2 + v(N), v(N) the variance of m(N) by
-// tilt_lens/convergence.h over all pixels that take n; beyond N, v(N) (N/n)^a. Means are
+// lens/convergence.h over all pixels that take n; beyond N, v(N) (N/n)^a. Means are
 // clipped to 0 .. 1, as in a picture file.
 
 #ifndef TILTCOST_PREDICTION_H
 #define TILTCOST_PREDICTION_H
 
-#include "pilot_file.h"
+#include "tiltcost/pilot_file.h"
 
 #include "lens/adaptive.h"
 #include "lens/convergence.h"

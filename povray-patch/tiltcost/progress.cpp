@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
-#include "progress.h"
+#include "tiltcost/progress.h"
 
 #include <fmt/format.h>
 #include <unistd.h>

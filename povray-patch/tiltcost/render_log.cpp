@@ -2,7 +2,7 @@
 //
 // What is read from POV-Ray's message stream.
 
-#include "pilot_run.h"
+#include "tiltcost/pilot_run.h"
 
 #include <cstdio>
 #include <cstdlib>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
-#include "report.h"
+#include "tiltcost/report.h"
 
 #include <fmt/format.h>
 

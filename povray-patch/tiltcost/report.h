@@ -5,8 +5,8 @@
 #ifndef TILTCOST_REPORT_H
 #define TILTCOST_REPORT_H
 
-#include "pilot_run.h"
-#include "search.h"
+#include "tiltcost/pilot_run.h"
+#include "tiltcost/search.h"
 
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
-#include "search.h"
+#include "tiltcost/search.h"
 
 #include "lens/denoise.h"
 

@@ -5,7 +5,7 @@
 #ifndef TILTCOST_SEARCH_H
 #define TILTCOST_SEARCH_H
 
-#include "prediction.h"
+#include "tiltcost/prediction.h"
 
 #include <functional>
 #include <optional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 //
-// The hard cases of calibration (DESIGN.md section 3): solved, or refused with what to photograph instead, or with a
+// The hard cases of calibration (povray-patch/lens/MODEL.md): solved, or refused with what to photograph instead, or with a
 // verdict that says so; never a confident wrong answer.
 
 #include <tiltcal/calibrate.h>

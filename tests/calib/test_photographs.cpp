@@ -96,7 +96,7 @@ TEST(Photographs, PrincipalPointMovesByAFewPixelsOnly)
 	const Json json = Calibration();
 	ASSERT_EQ(json.at("shared_poses"), true);
 	const double untilted = State(json, "untilted").at("principal_point_px")[1];
-	// DESIGN.md section 2: the picture moves by about 5 px between the states, down for plus5.
+	// The lens turns about a pivot away from its pupil: the picture moves by about 5 px between the states, down for plus5.
 	EXPECT_NEAR(State(json, "plus5").at("principal_point_px")[1].get<double>() - untilted, 5, 3);
 	EXPECT_NEAR(State(json, "minus5").at("principal_point_px")[1].get<double>() - untilted, -5, 3);
 }
@@ -113,7 +113,7 @@ TEST(Photographs, BlurIsExplained)
 TEST(Photographs, PaperIsBesideIt)
 {
 	const Json paper = Calibration().at("comparison").at("paper");
-	// The paper's approximations (DESIGN.md section 2) leave it 2.5 to 5.5 for a true 5.
+	// The paper's approximations (povray-patch/lens/MODEL.md) leave it 2.5 to 5.5 for a true 5.
 	EXPECT_NEAR(State(paper, "plus5").at("lens_tilt_deg").get<double>(), 4, 1.6);
 	EXPECT_NEAR(State(paper, "minus5").at("lens_tilt_deg").get<double>(), -4, 1.6);
 	EXPECT_NEAR(paper.at("image_distance_mm").get<double>(), 48.2, 1);

@@ -165,7 +165,7 @@ TEST_P(SketchOf, PlaneThroughHinge)
 
 INSTANTIATE_TEST_SUITE_P(Tilts, SketchOf, testing::Values(Case{ -5, 0 }, Case{ 5, 30 }, Case{ -4, 80 }), [](const auto& tested) { return "case" + std::to_string(tested.index); });
 
-/// DESIGN.md section 3: planes at infinity, parallel to the axis, behind the lens, nearly so.
+/// The hard cases of povray-patch/lens/MODEL.md: planes at infinity, parallel to the axis, behind the lens, nearly so.
 TEST(ReportHtml, SketchOfEveryPlane)
 {
 	Calibration c = CalibrationOf(Tilted(5, 0), "plane", 2);

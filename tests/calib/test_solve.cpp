@@ -54,7 +54,7 @@ TEST(SolvePlane, NoiseComesOutAsSigma)
 	untilted.floor = tilted.floor = 1;
 	const Calibration c = Calibrate(TwoStates(untilted, tilted, { 0.03, 0.06, 11 }), "plane", Poses::AUTO);
 	const StateLens& lens = c.solution.states[1];
-	// DESIGN.md section 5: some thousandths of a degree for six photographs with 0.06 px per edge.
+	// The noise floor: some thousandths of a degree for six photographs with 0.06 px per edge.
 	EXPECT_LT(lens.lens_tilt.sigma, 0.01);
 	EXPECT_GT(lens.lens_tilt.sigma, 0.0005);
 	EXPECT_NEAR(lens.lens_tilt.value, 5, 4 * lens.lens_tilt.sigma);
@@ -108,7 +108,7 @@ TEST(SolvePaper, StageOneIsExactUntilted)
 
 TEST(SolvePaper, StageTwoFindsTheSignAndASizeNearIt)
 {
-	// (4) is an approximation: DESIGN.md section 2 found 2.5 to 5.5 for a true 5.
+	// (4) is an approximation: 2.5 to 5.5 for a true 5 (povray-patch/lens/MODEL.md).
 	for (const double tilt : { 5.0, -5.0 })
 	{
 		const Task task = TwoStates({}, Tilted(tilt));

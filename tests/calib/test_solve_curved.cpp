@@ -51,7 +51,7 @@ INSTANTIATE_TEST_SUITE_P(Bowls, Bowl, testing::Values(Case{ -0.001, 5, 0 }, Case
 
 TEST(SolveCurved, PlaneTakesTheBowlForTilt)
 {
-	// DESIGN.md section 2: why the model is there.
+	// Why the model is there (povray-patch/lens/MODEL.md, Field curvature).
 	const Task task = Photographs(-0.001, 5, 0, { 0.03, 0.06, 3 });
 	const Lens lens = Tilted(5);
 	EXPECT_GT(TiltError(Calibrate(task, "plane", Poses::AUTO).solution.states[1], lens), 0.2);

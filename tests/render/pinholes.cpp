@@ -169,7 +169,7 @@ Picture SumOfPinholes(const Camera& camera, int colour, const fs::path& scene, c
 
 }
 
-// DESIGN section 2. The plane recedes towards (sin phi, cos phi); the lens normal follows from n/f = q + e_z/w.
+// povray-patch/lens/MODEL.md. The plane recedes towards (sin phi, cos phi); the lens normal follows from n/f = q + e_z/w.
 Lens LensOf(const Camera& camera, int colour)
 {
 	// A colour for which the lens has more power: n/f grows along n, and q with it.

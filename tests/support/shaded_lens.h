@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 //
 // White patches as a vignetting lens shows them, by following rays through a disc of lens points to the rim: Gauss's equation
-// and straight lines. Nothing of tilt_lens/optical_vignetting.h is in it.
+// and straight lines. Nothing of lens/optical_vignetting.h is in it.
 
 #ifndef TILTCAL_SHADED_LENS_H
 #define TILTCAL_SHADED_LENS_H

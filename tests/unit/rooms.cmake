@@ -35,6 +35,8 @@ function(check_folder folder allowed)
 endfunction()
 
 check_folder(povray-patch/lens "lens")
+check_folder(povray-patch/tilt_lens "lens;backend;base")   # the last two are POV-Ray's
+check_folder(povray-patch/tiltcost "lens;tiltcal;base;tiltcost")
 check_folder(calib/include/tiltcal "tiltcal;lens")
 set(allowed "lens;tiltcal")
 foreach(room IN LISTS rooms)

@@ -15,7 +15,6 @@ using namespace tilt_lens;
 namespace
 {
 
-const double Pi = 3.14159265358979323846;
 const double Degree = Pi / 180.0;
 
 /// How far a point lies outside the opening (< 0: inside), from the definition: beyond an edge's chord, or for a bent

@@ -139,9 +139,9 @@ TEST(Kernels, WeighOneInSumAndNothingAtTheCentre)
 {
 	for(const Kernel& k : AllKernels())
 	{
-		Plane p(41, 41);
+		PixelPlane p(41, 41);
 		p.At(20, 20) = 1.0f;
-		Plane rows(p.width, p.height), response(p.width, p.height), squared(p.width, p.height);
+		PixelPlane rows(p.width, p.height), response(p.width, p.height), squared(p.width, p.height);
 		k.Apply(p, rows, response);
 		k.ApplySquared(p, rows, squared);
 		double sum = 0.0, squares = 0.0, squared_sum = 0.0;

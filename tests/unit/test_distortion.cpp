@@ -25,7 +25,7 @@ const double Coefficients[][DistortionTerms] = {
 
 }
 
-// One pixel is 1/2410 in units of w; 1e-9 px is what issue and DESIGN ask for.
+// One pixel is 1/2410 in units of w; 1e-9 px: rounding, not a model of its own.
 TEST(Distortion, IsOpenCVsProjectPoints)
 {
 	const double w = 2410.0;
