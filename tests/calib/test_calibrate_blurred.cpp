@@ -66,7 +66,7 @@ TEST(CalibrateBlurred, TiltOfALensFromStronglyBlurredPictures)
 		for (const Photo& photo : state.photos)
 			most = std::max(most, RatiosOf(photo).most);
 	EXPECT_GT(most, 0.3) << "the pictures are not blurred enough to test anything";
-	const Calibration c = Calibrate(task, "plane", Poses::AUTO);
+	const Calibration c = Calibrate(task, { Model::PLANE, Poses::AUTO });
 	const StateLens& lens = c.solution.states[1];
 	const double phi = lens.tilt_direction.value * M_PI / 180, tilt = lens.lens_tilt.value;
 	std::printf("tilt %.3f +- %.3f towards %.2f, w %.3f, d %.3f\n", tilt, lens.lens_tilt.sigma, lens.tilt_direction.value, c.solution.w_mm.value, c.solution.aperture_diameter.value);

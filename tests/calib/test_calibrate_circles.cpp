@@ -65,7 +65,7 @@ void TiltIsFound(const Board& board, size_t photos)
 	task.width = 640;
 	task.height = 480;
 	task.states = { Photograph("untilted", 0, board, photos), Photograph("plus5", TILT, board, photos) };
-	const Calibration c = Calibrate(task, "plane", Poses::AUTO);
+	const Calibration c = Calibrate(task, { Model::PLANE, Poses::AUTO });
 	const StateLens& lens = c.solution.states[1];
 	const double phi = lens.tilt_direction.value * M_PI / 180, tilt = lens.lens_tilt.value, true_phi = DIRECTION * M_PI / 180;
 	// As a vector: direction and size in one.

@@ -67,8 +67,8 @@ TEST(CalibrateVignetting, FindsTheRimFromTiltedStates)
 	const Calibration c = Estimated(synthetic::Shaded(TiltedBothWays(), RIM, 0.005, 1));
 	ASSERT_EQ(c.vignetting.failure, "");
 	const FalloffAnswer& found = FalloffOf(c);
-	EXPECT_TRUE(Uses(c, "vignetting_natural"));
-	EXPECT_TRUE(Uses(c, "vignetting_optical"));
+	EXPECT_TRUE(Uses(c, EffectId::VIGNETTING_NATURAL));
+	EXPECT_TRUE(Uses(c, EffectId::VIGNETTING_OPTICAL));
 	EXPECT_LT(Off(found.radius_mm, 15), 2.6) << found.radius_mm.value << " +- " << found.radius_mm.sigma;
 	EXPECT_LT(Off(found.distance_mm, 33), 2.6) << found.distance_mm.value << " +- " << found.distance_mm.sigma;
 	EXPECT_LT(found.radius_mm.sigma, 0.5);     // half a per cent of noise on some 400 patches: 3 %
@@ -84,8 +84,8 @@ TEST(CalibrateVignetting, FindsRimsOnBothSides)
 	{
 		const Calibration c = Estimated(synthetic::Shaded(TiltedBothWays(), ON_BOTH_SIDES, 0.005, seed));
 		const FalloffAnswer& found = FalloffOf(c);
-		EXPECT_TRUE(Uses(c, "vignetting_natural")) << EffectsText(c);
-		EXPECT_TRUE(Uses(c, "vignetting_optical")) << EffectsText(c);
+		EXPECT_TRUE(Uses(c, EffectId::VIGNETTING_NATURAL)) << EffectsText(c);
+		EXPECT_TRUE(Uses(c, EffectId::VIGNETTING_OPTICAL)) << EffectsText(c);
 		ASSERT_EQ(found.rims.size(), 2u) << EffectsText(c);
 		const double truth[] = { 12.5, 21, 8.8, -13 };
 		for (size_t k = 0; k < 4; ++k)
@@ -119,8 +119,8 @@ TEST(CalibrateVignetting, UnevenLightIsNotTakenForTheLens)
 	lit.gradient = 0.2;
 	const Calibration c = Estimated(synthetic::Shaded(TiltedBothWays(), lit, 0.005, 2));
 	const FalloffAnswer& found = FalloffOf(c);
-	EXPECT_TRUE(Uses(c, "vignetting_natural"));
-	EXPECT_TRUE(Uses(c, "vignetting_optical"));
+	EXPECT_TRUE(Uses(c, EffectId::VIGNETTING_NATURAL));
+	EXPECT_TRUE(Uses(c, EffectId::VIGNETTING_OPTICAL));
 	EXPECT_LT(Off(found.radius_mm, 15), 2.6) << found.radius_mm.value << " +- " << found.radius_mm.sigma;
 	EXPECT_LT(Off(found.distance_mm, 33), 2.6) << found.distance_mm.value << " +- " << found.distance_mm.sigma;
 }
@@ -161,15 +161,15 @@ TEST(CalibrateVignetting, NothingIsWrittenWhereNothingDarkens)
 	Shade none;
 	none.natural = false;
 	const Calibration c = Estimated(synthetic::Shaded(TiltedBothWays(), none, 0.005, 3));
-	EXPECT_FALSE(Uses(c, "vignetting_natural")) << EffectsText(c);
-	EXPECT_FALSE(Uses(c, "vignetting_optical")) << EffectsText(c);
+	EXPECT_FALSE(Uses(c, EffectId::VIGNETTING_NATURAL)) << EffectsText(c);
+	EXPECT_FALSE(Uses(c, EffectId::VIGNETTING_OPTICAL)) << EffectsText(c);
 }
 
 TEST(CalibrateVignetting, NaturalFallOffAloneHasNoRim)
 {
 	const Calibration c = Estimated(synthetic::Shaded(TiltedBothWays(), Shade(), 0.005, 4));
-	EXPECT_TRUE(Uses(c, "vignetting_natural")) << EffectsText(c);
-	EXPECT_FALSE(Uses(c, "vignetting_optical")) << EffectsText(c);
+	EXPECT_TRUE(Uses(c, EffectId::VIGNETTING_NATURAL)) << EffectsText(c);
+	EXPECT_FALSE(Uses(c, EffectId::VIGNETTING_OPTICAL)) << EffectsText(c);
 }
 
 // One picture of 1040 cells, without a photograph that could be left out: it is left out by quarters.
@@ -184,8 +184,8 @@ TEST(CalibrateVignetting, FlatFieldsTellItBetterThanTheBoard)
 		const Calibration e = Estimated(c);
 		const FalloffAnswer& found = FalloffOf(e);
 		EXPECT_TRUE(e.vignetting.flat_field);
-		EXPECT_TRUE(Uses(e, "vignetting_natural")) << EffectsText(e);
-		EXPECT_TRUE(Uses(e, "vignetting_optical")) << EffectsText(e);
+		EXPECT_TRUE(Uses(e, EffectId::VIGNETTING_NATURAL)) << EffectsText(e);
+		EXPECT_TRUE(Uses(e, EffectId::VIGNETTING_OPTICAL)) << EffectsText(e);
 		EXPECT_LT(Off(found.radius_mm, 15), 2.6) << found.radius_mm.value << " +- " << found.radius_mm.sigma;
 		EXPECT_LT(Off(found.distance_mm, 33), 2.6) << found.distance_mm.value << " +- " << found.distance_mm.sigma;
 		EXPECT_LT(found.radius_mm.sigma, 0.3);
@@ -200,7 +200,7 @@ TEST(CalibrateVignetting, BlackCellsOfAFlatFieldAreLeftOut)
 	for (size_t k = 0; k < 20; ++k)
 		c.task.flat_fields[0].patches[k].value = k < 10 ? 0 : -1e-6;
 	const Calibration e = Estimated(c);
-	EXPECT_TRUE(Uses(e, "vignetting_optical")) << EffectsText(e);
+	EXPECT_TRUE(Uses(e, EffectId::VIGNETTING_OPTICAL)) << EffectsText(e);
 	EXPECT_LT(Off(FalloffOf(e).radius_mm, 15), 2.6);
 }
 
@@ -209,16 +209,16 @@ TEST(CalibrateVignetting, EffectsAskedForAreTakenOrRefused)
 	Calibration c = synthetic::Shaded(TiltedBothWays(), RIM, 0.005, 1);
 	c.vignetting = EstimateVignetting(c);
 	ChooseEffects(ParseEffects("vignetting_optical"), c);
-	EXPECT_TRUE(Uses(c, "vignetting_optical"));
-	EXPECT_FALSE(Uses(c, "vignetting_natural"));
+	EXPECT_TRUE(Uses(c, EffectId::VIGNETTING_OPTICAL));
+	EXPECT_FALSE(Uses(c, EffectId::VIGNETTING_NATURAL));
 	// A rim that must make up for the natural fall-off is another.
 	EXPECT_EQ(&FalloffOf(c), &c.vignetting.answers[FalloffKind(false, true)]);
 	ChooseEffects(ParseEffects("none"), c);
 	for (const Effect& e : c.effects)
-		EXPECT_FALSE(e.used) << e.name;
+		EXPECT_FALSE(e.used) << NameOf(e.id);
 	ChooseEffects(ParseEffects("all"), c);
-	EXPECT_TRUE(Uses(c, "vignetting_optical"));
-	EXPECT_FALSE(Uses(c, "blades"));   // nobody said how many
+	EXPECT_TRUE(Uses(c, EffectId::VIGNETTING_OPTICAL));
+	EXPECT_FALSE(Uses(c, EffectId::BLADES));   // nobody said how many
 	for (const char* const name : { "blades", "distortion", "field_curvature" })
 		EXPECT_EQ(CodeOf([&] { ChooseEffects(ParseEffects(std::string("vignetting_natural,") + name), c); }), EXIT_REFUSED) << name;
 	for (const char* const text : { "", "vignetting", "auto,none", "blades,", "Blades" })
@@ -238,7 +238,7 @@ TEST(CalibrateVignetting, ClippedWhiteIsNotBelieved)
 	EXPECT_THAT(c.vignetting.failure, testing::HasSubstr("clipped"));
 	EXPECT_EQ(CodeOf([&] { ChooseEffects(ParseEffects("vignetting_natural"), c); }), EXIT_REFUSED);
 	ChooseEffects({}, c);
-	EXPECT_FALSE(Uses(c, "vignetting_natural"));
+	EXPECT_FALSE(Uses(c, EffectId::VIGNETTING_NATURAL));
 }
 
 TEST(BrightPatches, ClippedAndDarkFlatFieldsAreRefused)

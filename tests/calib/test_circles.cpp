@@ -185,7 +185,7 @@ TEST(Circles, WrongGridsAreRefused)
 		EXPECT_NE(Refusal(picture, Symmetric(columns, rows)), "") << columns << "x" << rows;
 	EXPECT_NE(Refusal(picture, Asymmetric(4, 7)), "");
 	// 16 mm instead of 13.
-	EXPECT_NE(Refusal(picture, MakeBoard(TargetKind::CIRCLES, "8x6", SPACING, 16, "")).find("--circle-diameter 13"), std::string::npos);
+	EXPECT_NE(Refusal(picture, MakeBoard(TargetKind::CIRCLES, "8x6", SPACING, 16, "")).find("`circle_diameter` 13"), std::string::npos);
 	cv::Mat covered = picture.clone();
 	covered(cv::Rect(0, 0, covered.cols / 2, covered.rows / 2)).setTo(0.3);
 	EXPECT_NE(Refusal(covered, board).find("no grid of 8x6 circles"), std::string::npos);

@@ -25,16 +25,16 @@ using testing::HasSubstr;
 const Noise NOISE{ 0.03, 0.06, 5 };
 
 /// Refused with advice, or right within what it says of itself.
-void ExpectNoConfidentError(const Task& task, const Lens& lens, const std::string& model = "auto")
+void ExpectNoConfidentError(const Task& task, const Lens& lens, const std::optional<Model>& model = {})
 {
 	try
 	{
-		const Calibration c = Calibrate(task, model, Poses::AUTO);
+		const Calibration c = Calibrate(task, { model, Poses::AUTO });
 		const StateLens& found = c.solution.states[1];
 		const double sigma = std::hypot(found.lens_tilt.sigma, found.tilt_direction.sigma * std::abs(lens.tilt) * 0.01745);
 		// 0.01: what is of second order in the aperture.
 		EXPECT_TRUE(TiltError(found, lens) < 4 * sigma + 0.01 || Judge(c).grade == Grade::POOR)
-			<< "off by " << TiltError(found, lens) << " with a sigma of " << sigma << ", verdict " << Name(Judge(c).grade);
+			<< "off by " << TiltError(found, lens) << " with a sigma of " << sigma << ", verdict " << NameOf(Judge(c).grade);
 	}
 	catch (const Error& e)
 	{
@@ -49,22 +49,22 @@ TEST(Degenerate, BlurWithNoSignChange)
 	for (const double shift : { -220.0, 300.0 })
 	{
 		const Lens tilted = Tilted(3);
-		ExpectNoConfidentError(MakeTask({ Photograph("untilted", Lens(), NOISE, 6, shift), Photograph("tilted", tilted, NOISE, 6, shift) }), tilted, "plane");
+		ExpectNoConfidentError(MakeTask({ Photograph("untilted", Lens(), NOISE, 6, shift), Photograph("tilted", tilted, NOISE, 6, shift) }), tilted, Model::PLANE);
 	}
 }
 
 TEST(Degenerate, TiltedBoardsAllParallelToTheSensor)
 {
 	const Lens tilted = Tilted(4, 50);
-	ExpectNoConfidentError(MakeTask({ Photograph("untilted", Lens(), NOISE), PhotographParallel("tilted", tilted, 600) }), tilted, "plane");
+	ExpectNoConfidentError(MakeTask({ Photograph("untilted", Lens(), NOISE), PhotographParallel("tilted", tilted, 600) }), tilted, Model::PLANE);
 }
 
 TEST(Degenerate, OnePhotographOfAState)
 {
 	const Lens tilted = Tilted(5);
 	const Task task = MakeTask({ Photograph("untilted", Lens(), NOISE), Photograph("tilted", tilted, NOISE, 1) });
-	ExpectNoConfidentError(task, tilted, "plane");
-	const Calibration c = Calibrate(task, "plane", Poses::AUTO);
+	ExpectNoConfidentError(task, tilted, Model::PLANE);
+	const Calibration c = Calibrate(task, { Model::PLANE, Poses::AUTO });
 	const Verdict verdict = Judge(c);
 	EXPECT_NE(verdict.grade, Grade::GOOD);
 	EXPECT_THAT(verdict.remarks, testing::Contains(testing::Field(&Remark::text, HasSubstr("at least three poses"))));
@@ -72,7 +72,7 @@ TEST(Degenerate, OnePhotographOfAState)
 
 TEST(Degenerate, NoTiltIsFoundToBeNone)
 {
-	const Calibration c = Calibrate(TwoStates({}, {}, NOISE, { 0.03, 0.06, 6 }), "plane", Poses::AUTO);
+	const Calibration c = Calibrate(TwoStates({}, {}, NOISE, { 0.03, 0.06, 6 }), { Model::PLANE, Poses::AUTO });
 	EXPECT_LT(std::abs(c.solution.states[1].lens_tilt.value), 4 * c.solution.states[1].lens_tilt.sigma + 0.003);
 }
 
@@ -82,21 +82,21 @@ TEST(Degenerate, AWrongSquareSizeScalesLengthsButNotAngles)
 	const Lens tilted = Tilted(5, 20);
 	Task task = TwoStates({}, tilted, NOISE);
 	task.board.square_mm *= 1.1;
-	const Calibration c = Calibrate(task, "plane", Poses::AUTO);
+	const Calibration c = Calibrate(task, { Model::PLANE, Poses::AUTO });
 	EXPECT_NEAR(c.solution.w_mm.value, tilted.w, 0.05);
 	EXPECT_NEAR(c.solution.focus_distance.value, 1.1 * Lens().FocusDistance(), 2);
 	task.priors = { { Quantity::FOCAL_LENGTH, tilted.f, 0.01 } };
 	// U and w cannot both keep 1/f = 1/U + 1/w then: said, not smoothed over.
-	const Calibration held = Calibrate(task, "plane", Poses::AUTO);
+	const Calibration held = Calibrate(task, { Model::PLANE, Poses::AUTO });
 	const Verdict verdict = Judge(held);
 	EXPECT_EQ(verdict.grade, Grade::POOR);
-	EXPECT_THAT(verdict.remarks, testing::Contains(testing::Field(&Remark::text, HasSubstr("--square"))));
+	EXPECT_THAT(verdict.remarks, testing::Contains(testing::Field(&Remark::text, HasSubstr("`square`"))));
 }
 
 TEST(Degenerate, ANoisyLensIsSaidToBe)
 {
 	const Lens tilted = Tilted(5);
-	const Calibration c = Calibrate(TwoStates({}, tilted, { 0.5, 1.5, 2 }, { 0.5, 1.5, 3 }), "plane", Poses::AUTO);
+	const Calibration c = Calibrate(TwoStates({}, tilted, { 0.5, 1.5, 2 }, { 0.5, 1.5, 3 }), { Model::PLANE, Poses::AUTO });
 	EXPECT_LT(TiltError(c.solution.states[1], tilted), 4 * c.solution.states[1].lens_tilt.sigma + 4 * c.solution.states[1].tilt_direction.sigma * 0.0873);
 	EXPECT_NE(Judge(c).grade, Grade::GOOD);
 }
@@ -105,9 +105,9 @@ TEST(Priors, ReplaceWhatThePhotographsDoNotTell)
 {
 	const Lens tilted = Tilted(5);
 	Task task = MakeTask({ Photograph("untilted", Lens(), { 0.3, 0.06, 2 }, 3), Photograph("tilted", tilted, { 0.3, 0.06, 3 }, 3) });
-	const Calibration free = Calibrate(task, "plane", Poses::AUTO);
+	const Calibration free = Calibrate(task, { Model::PLANE, Poses::AUTO });
 	task.priors = { { Quantity::FOCAL_LENGTH, tilted.f, 1e-6 * tilted.f } };
-	const Calibration fixed = Calibrate(task, "plane", Poses::AUTO);
+	const Calibration fixed = Calibrate(task, { Model::PLANE, Poses::AUTO });
 	EXPECT_NEAR(fixed.solution.focal_length.value, tilted.f, 1e-3);
 	EXPECT_LT(fixed.solution.w_mm.sigma, 0.5 * free.solution.w_mm.sigma);
 	EXPECT_LT(std::abs(fixed.solution.w_mm.value - tilted.w), 4 * fixed.solution.w_mm.sigma + 0.01);

@@ -146,8 +146,8 @@ TEST(Detect, PhotographsOfTwoSizesAreRefused)
 	const std::string a = testing::TempDir() + "tiltcal-size-a.png", b = testing::TempDir() + "tiltcal-size-b.png";
 	WritePng(a, ToDisplay(painted.image));
 	WritePng(b, ToDisplay(painted.image(cv::Rect(0, 0, painted.image.cols - 2, painted.image.rows))));
-	EXPECT_THROW(MeasureAll({ { "untilted", { a, b } } }, ParseBoard("12x9", 25), 0.02, Transfer(), {}), Error);
-	EXPECT_EQ(MeasureAll({ { "untilted", { a, a } } }, ParseBoard("12x9", 25), 0.02, Transfer(), {}).states[0].photos.size(), 2u);
+	EXPECT_THROW(MeasureAll({ { "untilted", { a, b } } }, ParseBoard("12x9", 25), 0.02), Error);
+	EXPECT_EQ(MeasureAll({ { "untilted", { a, a } } }, ParseBoard("12x9", 25), 0.02).states[0].photos.size(), 2u);
 	std::filesystem::remove(a);
 	std::filesystem::remove(b);
 }

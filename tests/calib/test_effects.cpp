@@ -61,7 +61,6 @@ Calibration Coloured(const std::vector<Lens>& lenses, double red, double blue, d
 	c.solution.psf_floor_px = { 1, 0 };
 	for (size_t s = 0; s < lenses.size(); ++s)
 	{
-		c.geometry.poses.emplace_back();
 		for (Photo& photo : c.task.states[s].photos)
 		{
 			c.geometry.states[s].poses.push_back({ 0.5, 0, 0, -125, 87, 630 });   // for the blur only, which is the same in all colours here
@@ -82,7 +81,6 @@ Calibration Coloured(const std::vector<Lens>& lenses, double red, double blue, d
 			}
 		}
 	}
-	c.geometry.principal_point_sigma.assign(lenses.size(), { 0, 0 });
 	c.pinhole = c.geometry;
 	c.render = c.solution;
 	return c;
@@ -115,8 +113,8 @@ TEST(Chromatic, LateralIsFoundAboutTheTiltedAxis)
 	EXPECT_LT(Off(c.chromatic.lateral[0], RED), 2) << c.chromatic.lateral[0].value << " +- " << c.chromatic.lateral[0].sigma;
 	EXPECT_LT(Off(c.chromatic.lateral[1], BLUE), 2) << c.chromatic.lateral[1].value << " +- " << c.chromatic.lateral[1].sigma;
 	EXPECT_LT(c.chromatic.lateral[0].sigma, 0.03 * RED);   // 0.03 px on 600 edges some 350 px from the axis
-	EXPECT_TRUE(Uses(c, "chromatic_lateral"));
-	EXPECT_FALSE(Uses(c, "chromatic_axial")) << EffectsText(c);
+	EXPECT_TRUE(Uses(c, EffectId::CHROMATIC_LATERAL));
+	EXPECT_FALSE(Uses(c, EffectId::CHROMATIC_AXIAL)) << EffectsText(c);
 }
 
 // Exact shifts give the exact numbers: the axis is the tilted lens's own. About the sensor's axis the error would be 3e-5 and more.
@@ -131,8 +129,8 @@ TEST(Chromatic, LateralIsExactWithoutNoise)
 TEST(Chromatic, NothingIsWrittenWhereColoursAgree)
 {
 	const Calibration c = Chosen(Coloured(Tilted(), 0, 0, 0.03, 3));   // one seed in forty finds something at 2 sigma
-	EXPECT_FALSE(Uses(c, "chromatic_lateral"));
-	EXPECT_FALSE(Uses(c, "chromatic_axial"));
+	EXPECT_FALSE(Uses(c, EffectId::CHROMATIC_LATERAL));
+	EXPECT_FALSE(Uses(c, EffectId::CHROMATIC_AXIAL));
 	EXPECT_THAT(CameraInc(Chosen(Coloured(Tilted(), RED, BLUE, 0.03, 1)), 0), HasSubstr("chromatic lateral TiltCal_state0_Lateral_Red, TiltCal_state0_Lateral_Blue\n"));
 	EXPECT_THAT(CameraInc(c, 0), Not(HasSubstr("\tchromatic")));
 	EXPECT_THAT(CameraInc(c, 0), HasSubstr("of chromatic aberration; not used: "));
@@ -188,7 +186,7 @@ Calibration FromPictures(std::vector<ColourPicture> pictures)
 	c.task.width = 480;
 	c.task.height = 360;
 	State state;
-	c.geometry.poses.emplace_back();
+	c.geometry.states.resize(1);
 	for (ColourPicture& p : pictures)
 	{
 		MeasureColours(p.picture, c.task.board, p.photo);
@@ -197,9 +195,8 @@ Calibration FromPictures(std::vector<ColourPicture> pictures)
 	}
 	c.task.states = { state };
 	c.geometry.w_px = 600;
-	c.geometry.principal_point = { { 239.5, 179.5 } };
-	c.geometry.lens_normal = { { 0, 0, 1 } };
-	c.solution.model = "plane";
+	c.geometry.states[0].principal_point = { 239.5, 179.5 };
+	c.solution.model = Model::PLANE;
 	c.solution.aperture_diameter = { 6, 0 };
 	c.solution.psf_floor_px = { 1, 0 };
 	c.solution.states.resize(1);
@@ -289,15 +286,16 @@ TEST(Blades, AreTakenFromFixOrRefused)
 
 TEST(EffectWords, AreAbsentUnlessGiven)
 {
-	EXPECT_EQ(EffectLines({}), "");
-	EffectWords words;
+	const auto lines = [](const StateCamera& camera) { return EffectLines(camera, PlainNumbers(1), {}); };
+	EXPECT_EQ(lines({}), "");
+	StateCamera words;
 	words.natural_vignetting = true;
-	words.axial = "1, 2";
-	EXPECT_EQ(EffectLines(words), "\t\tvignetting natural\n\t\tchromatic axial 1, 2\n");
-	words.lateral = "3, 4";
-	words.optical_vignetting = "5, 6";
-	words.blades = "7 rotation 0 curvature 1";
-	EXPECT_EQ(EffectLines(words), "\t\tvignetting natural\n\t\tvignetting optical 5, 6\n\t\tchromatic lateral 3, 4 axial 1, 2\n\t\tblades 7 rotation 0 curvature 1\n");
+	words.axial_per_mm = { 1, 2 };
+	EXPECT_EQ(lines(words), "\t\tvignetting natural\n\t\tchromatic axial 1, 2\n");
+	words.lateral = { 3, 4 };
+	words.rims_mm = { { 5, 6 } };
+	words.blades = { 7, 0, 1 };
+	EXPECT_EQ(lines(words), "\t\tvignetting natural\n\t\tvignetting optical 5, 6\n\t\tchromatic lateral 3, 4 axial 1, 2\n\t\tblades 7 rotation 0 curvature 1\n");
 }
 
 namespace
@@ -323,7 +321,7 @@ Calibration Everything(const char* effects)
 			}
 		}
 	c.task.blades = { 8, 10, 0.25 };
-	return Calibrate(c.task, "plane", Poses::SHARED, Refinement::NONE, ParseEffects(effects));
+	return Calibrate(c.task, { Model::PLANE, Poses::SHARED, Refinement::NONE, ParseEffects(effects) });
 }
 
 }

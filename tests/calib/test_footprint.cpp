@@ -20,7 +20,7 @@ Geometry Undistorted()
 {
 	Geometry g;
 	g.w_px = W;
-	g.lens_normal = { { 0, 0, 1 } };
+	g.states.resize(1);
 	return g;
 }
 

@@ -51,7 +51,7 @@ TEST(MonteCarlo, TrueValuesAreInsideTwoSigmaAsOftenAsTheyShould)
 {
 	// Solved without noise once; its own small errors (second order in the aperture) are not the noise's, so that
 	// the sets are compared with this, which test_solve_curved.cpp compares with the lens.
-	const Calibration exact = Calibrate(Photographs({ 0, 0, 1 }), "curved", Poses::SHARED);
+	const Calibration exact = Calibrate(Photographs({ 0, 0, 1 }), { Model::CURVED, Poses::SHARED });
 	std::map<std::string, int> inside;
 	for (int i = 0; i < SETS; ++i)
 	{

@@ -50,7 +50,7 @@ TEST_P(Tilts, ProjectAsOpenCvDoes)
 		{
 			const Vec3<double> P{ x, y, 800 + 0.3 * x - 0.5 * y };
 			double ours[2];
-			Project(c.ImageDistancePx(), c.distortion.data(), c.principal_point.data(), c.LensNormal(), P, ours);
+			MakePicture(c.ImageDistancePx(), c.distortion.data(), c.principal_point.data(), c.LensNormal()).Project(P, ours);
 			const Eigen::Vector3d p = opencv_from_camera * Eigen::Vector3d(P.x, P.y, P.z);
 			std::vector<cv::Point2d> theirs;
 			cv::projectPoints(std::vector<cv::Point3d>{ { p.x(), p.y(), p.z() } }, cv::Vec3d(), cv::Vec3d(), K, coefficients, theirs);

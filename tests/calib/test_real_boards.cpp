@@ -129,9 +129,10 @@ TEST(RealBoards, SonyChessIntrinsics)
 	const std::string folder = Folder("Sony_DSC-HX5V_Chess");
 	if (Absent(folder))
 		GTEST_SKIP() << folder << " is not there";
-	DetectOptions options{ true };
+	MeasureOptions options;
+	options.any_orientation = true;
 	// 5 x 7 squares: both odd, all orientations are alike. The pitch only scales.
-	const Task task = MeasureAll({ { "untilted", Pictures(folder) } }, ParseBoard("5x7", 30), 0.01, Transfer(), options);
+	const Task task = MeasureAll({ { "untilted", Pictures(folder) } }, ParseBoard("5x7", 30), 0.01, options);
 	ASSERT_EQ(task.states[0].photos.size(), 13u);
 	const Geometry g = SelectGeometry(task, {});
 	std::printf("w %.2f +- %.2f px, principal point %.2f %.2f, k1 %.4f k2 %.4f, %.3f px RMS\n", g.w_px, g.w_px_sigma,
@@ -203,7 +204,7 @@ TEST(RealBoards, SonyCirclesAreFoundAndFit)
 		GTEST_SKIP() << folder << " is not there";
 	// calibration_target.yaml: 8 rows and 10 columns, diameter 15, distance 25 mm. The pitch only scales.
 	const Board board = MakeBoard(TargetKind::CIRCLES, "10x8", 25, 15, "");
-	const Task task = MeasureAll({ { "untilted", Pictures(folder) } }, board, 0.01, Transfer(), {});
+	const Task task = MeasureAll({ { "untilted", Pictures(folder) } }, board, 0.01);
 	const std::vector<Photo>& photos = task.states[0].photos;
 	ASSERT_EQ(photos.size(), 6u);   // findCirclesGrid finds all six; so must we, or MeasureAll refuses
 	std::vector<std::vector<cv::Point2f>> theirs;

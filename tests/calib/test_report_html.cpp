@@ -39,10 +39,10 @@ State Named(State state)
 	return state;
 }
 
-Calibration CalibrationOf(const Lens& tilted, const std::string& model, int photos = 6)
+Calibration CalibrationOf(const Lens& tilted, Model model, int photos = 6)
 {
 	const Noise noise{ 0.03, 0.06, 3 };
-	return Calibrate(synthetic::MakeTask({ Named(synthetic::Photograph("untilted", {}, noise, photos)), Named(synthetic::Photograph("tilted", tilted, noise, photos)) }), model, Poses::AUTO);
+	return Calibrate(synthetic::MakeTask({ Named(synthetic::Photograph("untilted", {}, noise, photos)), Named(synthetic::Photograph("tilted", tilted, noise, photos)) }), { model, Poses::AUTO });
 }
 
 std::string PageOf(const Calibration& c)
@@ -86,22 +86,22 @@ void ExpectGoodPage(const Calibration& c)
 
 TEST(ReportHtml, IsWellFormedAndSelfContained)
 {
-	for (const char* const model : { "plane", "rigid", "curved", "paper" })
+	for (const Model model : { Model::PLANE, Model::RIGID, Model::CURVED, Model::PAPER })
 	{
-		SCOPED_TRACE(model);
+		SCOPED_TRACE(NameOf(model));
 		ExpectGoodPage(CalibrationOf(Tilted(5, 30), model, 3));
 	}
 }
 
 TEST(ReportHtml, OfOnePhotographAState)
 {
-	ExpectGoodPage(CalibrationOf(Tilted(5, 0), "plane", 1));
+	ExpectGoodPage(CalibrationOf(Tilted(5, 0), Model::PLANE, 1));
 }
 
 TEST(ReportHtml, WithoutTiltedStates)
 {
 	const Noise noise{ 0.03, 0.06, 3 };
-	const Calibration c = Calibrate(synthetic::MakeTask({ Named(synthetic::Photograph("untilted", {}, noise, 3)) }), "auto", Poses::AUTO);
+	const Calibration c = Calibrate(synthetic::MakeTask({ Named(synthetic::Photograph("untilted", {}, noise, 3)) }), { std::nullopt, Poses::AUTO });
 	ExpectGoodPage(c);
 	EXPECT_THAT(ReadPage(PageOf(c)).text, HasSubstr("No tilted state"));
 }
@@ -137,7 +137,7 @@ double Of(const PageElement& element, const char* name) { return std::stod(eleme
 TEST_P(SketchOf, PlaneThroughHinge)
 {
 	const Lens lens = Tilted(GetParam().tilt, GetParam().direction);
-	const Calibration c = CalibrationOf(lens, "plane");
+	const Calibration c = CalibrationOf(lens, Model::PLANE);
 	const Page page = ReadPage("<!DOCTYPE html><html>" + SceneSvg(c, 1) + "</html>");
 	ASSERT_EQ(page.complaint, "");
 	const auto sides = page.Find("g", "side");
@@ -168,7 +168,7 @@ INSTANTIATE_TEST_SUITE_P(Tilts, SketchOf, testing::Values(Case{ -5, 0 }, Case{ 5
 /// The hard cases of povray-patch/lens/MODEL.md: planes at infinity, parallel to the axis, behind the lens, nearly so.
 TEST(ReportHtml, SketchOfEveryPlane)
 {
-	Calibration c = CalibrationOf(Tilted(5, 0), "plane", 2);
+	Calibration c = CalibrationOf(Tilted(5, 0), Model::PLANE, 2);
 	const double infinity = std::numeric_limits<double>::infinity();
 	const std::pair<Vec3<double>, double> planes[] = { { { 0, 0, 0 }, infinity }, { { 0, -1 / 500.0, 0 }, infinity }, { { 1 / 300.0, 0, 1e-12 }, 1e12 }, { { 0, -0.001, -0.001 }, -1000 },
 		{ { 0, 0, 1e-30 }, 1e30 }, { { 0.0001, 0, 1 / 5.0 }, 5 }, { { 1e-8, 1e-8, 1 / 600.0 }, 600 } };

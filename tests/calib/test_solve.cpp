@@ -31,7 +31,7 @@ TEST_P(EveryTilt, ComesBackWithoutNoise)
 {
 	Lens untilted, tilted = Tilted(GetParam().tilt, GetParam().direction);
 	tilted.cy += 5;    // a real lens's picture moves when it is tilted
-	const Calibration c = Calibrate(TwoStates(untilted, tilted), "plane", Poses::AUTO);
+	const Calibration c = Calibrate(TwoStates(untilted, tilted), { Model::PLANE, Poses::AUTO });
 	const Solution& s = c.solution;
 	// Corners are exact, so w is: only the solver's tolerance is left.
 	EXPECT_NEAR(s.w_mm.value, untilted.w, 1e-3);
@@ -52,7 +52,7 @@ TEST(SolvePlane, NoiseComesOutAsSigma)
 {
 	Lens untilted, tilted = Tilted(5, 30);
 	untilted.floor = tilted.floor = 1;
-	const Calibration c = Calibrate(TwoStates(untilted, tilted, { 0.03, 0.06, 11 }), "plane", Poses::AUTO);
+	const Calibration c = Calibrate(TwoStates(untilted, tilted, { 0.03, 0.06, 11 }), { Model::PLANE, Poses::AUTO });
 	const StateLens& lens = c.solution.states[1];
 	// The noise floor: some thousandths of a degree for six photographs with 0.06 px per edge.
 	EXPECT_LT(lens.lens_tilt.sigma, 0.01);
@@ -73,21 +73,21 @@ TEST(SolvePlane, OneOutlierInTenDoesNotMoveIt)
 			for (Edge& e : photo.edges)
 				if (k++ % 10 == 0)
 					e.blur += 6;
-	const Calibration c = Calibrate(task, "plane", Poses::AUTO);
+	const Calibration c = Calibrate(task, { Model::PLANE, Poses::AUTO });
 	// Plain least squares is off by more than 0.3 degrees here.
 	EXPECT_NEAR(c.solution.states[1].lens_tilt.value, 5, 0.1);
 }
 
 TEST(SolvePlane, OwnPosesWhenTheBoardsMoved)
 {
-	const Calibration c = Calibrate(MakeTask({ Photograph("untilted", {}, {}), Photograph("tilted", Tilted(-4), {}, 6, 15) }), "plane", Poses::AUTO);
+	const Calibration c = Calibrate(MakeTask({ Photograph("untilted", {}, {}), Photograph("tilted", Tilted(-4), {}, 6, 15) }), { Model::PLANE, Poses::AUTO });
 	EXPECT_FALSE(c.geometry.shared_poses);
 	EXPECT_NEAR(c.solution.states[1].lens_tilt.value, -4, 0.03);
 }
 
 TEST(SolvePlane, SharedPosesAreSeen)
 {
-	EXPECT_TRUE(Calibrate(TwoStates({}, Tilted(-4), { 0.03, 0.05, 5 }), "plane", Poses::AUTO).geometry.shared_poses);
+	EXPECT_TRUE(Calibrate(TwoStates({}, Tilted(-4), { 0.03, 0.05, 5 }), { Model::PLANE, Poses::AUTO }).geometry.shared_poses);
 }
 
 TEST(SolvePaper, StageOneIsExactUntilted)
@@ -128,17 +128,17 @@ TEST(SolvePlane, OneTiltedPhotographIsNotMistakenForItsMirrorImage)
 {
 	// |1 - q.P| of one board fits two planes of focus exactly; the focal length decides.
 	const Noise noise{ 0.02, 0.05, 8 };
-	const Calibration c = Calibrate(MakeTask({ Photograph("untilted", {}, noise), Photograph("tilted", Tilted(5), noise, 1) }), "plane", Poses::AUTO);
+	const Calibration c = Calibrate(MakeTask({ Photograph("untilted", {}, noise), Photograph("tilted", Tilted(5), noise, 1) }), { Model::PLANE, Poses::AUTO });
 	// The one board's own pose is known to 0.1 degrees or so, and the tilt no better.
 	EXPECT_NEAR(c.solution.states[1].lens_tilt.value, 5, 0.2);
 }
 
 /// Why it was refused, or "" when it was not.
-std::string Refusal(const Task& task, const std::string& model = "plane")
+std::string Refusal(const Task& task, Model model = Model::PLANE)
 {
 	try
 	{
-		Calibrate(task, model, Poses::AUTO);
+		Calibrate(task, { model, Poses::AUTO });
 	}
 	catch (const Error& e)
 	{

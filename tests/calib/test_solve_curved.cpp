@@ -37,8 +37,8 @@ class Bowl : public testing::TestWithParam<Case> {};
 TEST_P(Bowl, ComesBackWithoutNoise)
 {
 	const Case& k = GetParam();
-	const Calibration c = Calibrate(Photographs(k.curvature, k.tilt, k.direction, {}), "curved", Poses::AUTO);
-	EXPECT_EQ(c.solution.model, "curved");
+	const Calibration c = Calibrate(Photographs(k.curvature, k.tilt, k.direction, {}), { Model::CURVED, Poses::AUTO });
+	EXPECT_EQ(c.solution.model, Model::CURVED);
 	// As for the plane (test_solve.cpp), what is of second order in the aperture is left out.
 	EXPECT_LT(TiltError(c.solution.states[1], Tilted(k.tilt, k.direction)), 0.003);
 	EXPECT_NEAR(c.solution.field_curvature.value, k.curvature, 0.002 * std::abs(k.curvature) + 1e-6);
@@ -54,8 +54,8 @@ TEST(SolveCurved, PlaneTakesTheBowlForTilt)
 	// Why the model is there (povray-patch/lens/MODEL.md, Field curvature).
 	const Task task = Photographs(-0.001, 5, 0, { 0.03, 0.06, 3 });
 	const Lens lens = Tilted(5);
-	EXPECT_GT(TiltError(Calibrate(task, "plane", Poses::AUTO).solution.states[1], lens), 0.2);
-	const Calibration c = Calibrate(task, "curved", Poses::AUTO);
+	EXPECT_GT(TiltError(Calibrate(task, { Model::PLANE, Poses::AUTO }).solution.states[1], lens), 0.2);
+	const Calibration c = Calibrate(task, { Model::CURVED, Poses::AUTO });
 	EXPECT_LT(TiltError(c.solution.states[1], lens), 4 * c.solution.states[1].lens_tilt.sigma + 4 * 0.005);
 	EXPECT_NEAR(c.solution.field_curvature.value, -0.001, 4 * c.solution.field_curvature.sigma);
 	EXPECT_LT(c.solution.field_curvature.sigma, 1e-5);
@@ -63,19 +63,19 @@ TEST(SolveCurved, PlaneTakesTheBowlForTilt)
 
 TEST(ChooseModel, CurvedWhereThereIsABowl)
 {
-	const Calibration c = Calibrate(Photographs(-0.0004, 5, 30, { 0.03, 0.06, 7 }), "auto", Poses::AUTO);
-	EXPECT_EQ(c.solution.model, "curved");
-	ASSERT_EQ(c.compared.size(), 3u);
-	EXPECT_EQ(c.compared[1].model, "plane");
-	EXPECT_LT(c.compared[2].held_out_px, c.compared[1].held_out_px);
+	const Calibration c = Calibrate(Photographs(-0.0004, 5, 30, { 0.03, 0.06, 7 }), { std::nullopt, Poses::AUTO });
+	EXPECT_EQ(c.solution.model, Model::CURVED);
+	ASSERT_TRUE(c.compared);
+	EXPECT_EQ(c.compared->plane.model, Model::PLANE);
+	EXPECT_LT(c.compared->curved.held_out_px, c.compared->plane.held_out_px);
 	// An edge's noise is all that is left to foretell.
-	EXPECT_NEAR(c.compared[2].held_out_px, 0.06, 0.01);
+	EXPECT_NEAR(c.compared->curved.held_out_px, 0.06, 0.01);
 }
 
 TEST(ChooseModel, PlaneWhereThereIsNone)
 {
-	const Calibration c = Calibrate(Photographs(0, 5, 30, { 0.03, 0.06, 7 }), "auto", Poses::AUTO);
-	EXPECT_EQ(c.solution.model, "plane");
+	const Calibration c = Calibrate(Photographs(0, 5, 30, { 0.03, 0.06, 7 }), { std::nullopt, Poses::AUTO });
+	EXPECT_EQ(c.solution.model, Model::PLANE);
 	EXPECT_EQ(c.solution.field_curvature.value, 0);
 }
 

@@ -28,9 +28,9 @@ class RigidTilt : public testing::TestWithParam<Case> {};
 TEST_P(RigidTilt, ComesBackFromExactBlur)
 {
 	const Lens untilted, tilted = Tilted(GetParam().tilt, GetParam().direction);
-	const Calibration c = Calibrate(TwoStates(untilted, tilted), "rigid", Poses::AUTO);
+	const Calibration c = Calibrate(TwoStates(untilted, tilted), { Model::RIGID, Poses::AUTO });
 	const Solution& s = c.solution;
-	EXPECT_EQ(s.model, "rigid");
+	EXPECT_EQ(s.model, Model::RIGID);
 	// Left out is what is of second order in the aperture, (d/2)^2 |q|^2 = 4e-4 of the blur at most. As vectors, because
 	// 2 degrees at 90 is -2 degrees at -90.
 	const double found = s.states[1].lens_tilt.value, phi = s.states[1].tilt_direction.value * M_PI / 180, true_phi = tilted.direction * M_PI / 180;
@@ -51,7 +51,7 @@ TEST(SolveRigid, NoiseComesOutAsSigmaSmallerThanOfPlane)
 	Lens untilted, tilted = Tilted(5, 30);
 	untilted.floor = tilted.floor = 1;
 	const Task task = TwoStates(untilted, tilted, { 0.03, 0.06, 11 });
-	const Calibration rigid = Calibrate(task, "rigid", Poses::AUTO), plane = Calibrate(task, "plane", Poses::AUTO);
+	const Calibration rigid = Calibrate(task, { Model::RIGID, Poses::AUTO }), plane = Calibrate(task, { Model::PLANE, Poses::AUTO });
 	const StateLens& lens = rigid.solution.states[1];
 	EXPECT_NEAR(lens.lens_tilt.value, 5, 4 * lens.lens_tilt.sigma);
 	EXPECT_NEAR(lens.tilt_direction.value, 30, 4 * lens.tilt_direction.sigma);
@@ -64,7 +64,7 @@ TEST(SolveRigid, NoiseComesOutAsSigmaSmallerThanOfPlane)
 TEST(SolveRigid, ThreeStatesShareOneLens)
 {
 	const Noise noise{ 0.03, 0.06, 4 };
-	const Calibration c = Calibrate(MakeTask({ Photograph("untilted", {}, noise), Photograph("plus", Tilted(5), noise), Photograph("minus", Tilted(-5), noise) }), "rigid", Poses::AUTO);
+	const Calibration c = Calibrate(MakeTask({ Photograph("untilted", {}, noise), Photograph("plus", Tilted(5), noise), Photograph("minus", Tilted(-5), noise) }), { Model::RIGID, Poses::AUTO });
 	EXPECT_NEAR(c.solution.states[1].lens_tilt.value, 5, 4 * c.solution.states[1].lens_tilt.sigma);
 	EXPECT_NEAR(c.solution.states[2].lens_tilt.value, -5, 4 * c.solution.states[2].lens_tilt.sigma);
 	EXPECT_NEAR(c.solution.states[1].focal_length.value, c.solution.states[2].focal_length.value, 1e-9);
@@ -75,7 +75,7 @@ TEST(SolveRigid, OneTiltedPhotographHasNoMirrorImage)
 	// The mirror image of the plane of focus in the board asks for another focal length,
 	// which this model does not have.
 	const Noise noise{ 0.02, 0.05, 8 };
-	const Calibration c = Calibrate(MakeTask({ Photograph("untilted", {}, noise), Photograph("tilted", Tilted(5), noise, 1) }), "rigid", Poses::AUTO);
+	const Calibration c = Calibrate(MakeTask({ Photograph("untilted", {}, noise), Photograph("tilted", Tilted(5), noise, 1) }), { Model::RIGID, Poses::AUTO });
 	// The one board's own pose is known to 0.1 degrees or so, and the tilt no better.
 	EXPECT_NEAR(c.solution.states[1].lens_tilt.value, 5, 0.2);
 }
@@ -84,9 +84,9 @@ TEST(SolveRigid, UntiltedAlone)
 {
 	Lens lens;
 	const Task task = MakeTask({ Photograph("untilted", lens, {}) });
-	const Calibration c = Calibrate(task, "rigid", Poses::AUTO);
+	const Calibration c = Calibrate(task, { Model::RIGID, Poses::AUTO });
 	// Untilted both models are the same.
-	const Calibration plane = Calibrate(task, "plane", Poses::AUTO);
+	const Calibration plane = Calibrate(task, { Model::PLANE, Poses::AUTO });
 	EXPECT_NEAR(c.solution.focus_distance.value, plane.solution.focus_distance.value, 1e-3);
 	EXPECT_NEAR(c.solution.focus_distance.sigma, plane.solution.focus_distance.sigma, 1e-3);
 }
@@ -97,7 +97,7 @@ TEST(SolveRigid, ALensThatIsRefocusedFitsWorseThanInPlane)
 	Lens tilted = Tilted(5);
 	tilted.f = 44.4;
 	const Task task = TwoStates({}, tilted, { 0.02, 0.05, 9 });
-	EXPECT_GT(Calibrate(task, "rigid", Poses::AUTO).solution.rms_blur, 2 * Calibrate(task, "plane", Poses::AUTO).solution.rms_blur);
+	EXPECT_GT(Calibrate(task, { Model::RIGID, Poses::AUTO }).solution.rms_blur, 2 * Calibrate(task, { Model::PLANE, Poses::AUTO }).solution.rms_blur);
 }
 
 }

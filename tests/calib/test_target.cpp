@@ -56,7 +56,7 @@ const double TRUE_MM = 0.05;
 
 TEST_F(Print, CheckerboardHasItsTrueSize)
 {
-	const TargetPage page = LayOut(MakeTarget(TargetKind::CHECKERBOARD, "8x5", 17, 0), "a4", 10);
+	const TargetPage page = LayOut(MakeBoard(TargetKind::CHECKERBOARD, "8x5", 17, 0, ""), "a4", 10);
 	EXPECT_EQ(page.paper, "a4 portrait");
 	cv::Mat light;
 	Printed(page).convertTo(light, CV_32F, 1 / 255.0);
@@ -73,7 +73,7 @@ TEST_F(Print, CheckerboardHasItsTrueSize)
 
 TEST_F(Print, ScaleBarIsAsLongAsItSays)
 {
-	const TargetPage page = LayOut(MakeTarget(TargetKind::CHECKERBOARD, "8x5", 17, 0), "a4", 10);
+	const TargetPage page = LayOut(MakeBoard(TargetKind::CHECKERBOARD, "8x5", 17, 0, ""), "a4", 10);
 	const cv::Mat picture = Printed(page);
 	// Along the bar's middle: five black fields of 10 mm and the line of 0.2 mm that closes it. Each by its centre of ink.
 	const int row = static_cast<int>(std::lround((page.strip.y + 1 + 1.25) / 25.4 * DPI - 0.5));
@@ -99,7 +99,7 @@ TEST_F(Print, CirclesAreWhereOpenCvFindsThem)
 {
 	for (const bool asymmetric : { false, true })
 	{
-		const TargetPage page = LayOut(MakeTarget(asymmetric ? TargetKind::ASYMMETRIC_CIRCLES : TargetKind::CIRCLES, asymmetric ? "4x11" : "7x6", 18, 0), "a4", 10);
+		const TargetPage page = LayOut(MakeBoard(asymmetric ? TargetKind::ASYMMETRIC_CIRCLES : TargetKind::CIRCLES, asymmetric ? "4x11" : "7x6", 18, 0, ""), "a4", 10);
 		std::vector<cv::Point2f> found;
 		ASSERT_TRUE(cv::findCirclesGrid(Printed(page), asymmetric ? cv::Size(4, 11) : cv::Size(7, 6), found,
 			asymmetric ? cv::CALIB_CB_ASYMMETRIC_GRID : cv::CALIB_CB_SYMMETRIC_GRID));
@@ -125,7 +125,7 @@ TEST_F(Print, CirclesAreWhereOpenCvFindsThem)
 TEST_F(Print, SvgIsInMillimetres)
 {
 	const std::string file = At("page.svg");
-	WriteTarget(LayOut(MakeTarget(TargetKind::CHECKERBOARD, "12x9", 25, 0), "auto", 10), file);
+	WriteTarget(LayOut(MakeBoard(TargetKind::CHECKERBOARD, "12x9", 25, 0, ""), "auto", 10), file);
 	std::ostringstream text;
 	text << std::ifstream(file).rdbuf();
 	EXPECT_THAT(text.str(), HasSubstr("width=\"420mm\" height=\"297mm\" viewBox=\"0 0 420 297\""));
@@ -135,14 +135,14 @@ TEST_F(Print, SvgIsInMillimetres)
 
 TEST_F(Print, UnwritableFileIsNamed)
 {
-	EXPECT_THROW(WriteTarget(LayOut(MakeTarget(TargetKind::CIRCLES, "7x6", 18, 0), "a4", 10), At("nowhere/page.pdf")), Error);
+	EXPECT_THROW(WriteTarget(LayOut(MakeBoard(TargetKind::CIRCLES, "7x6", 18, 0, ""), "a4", 10), At("nowhere/page.pdf")), Error);
 }
 
 std::string Refusal(const std::string& board, double square, const std::string& paper)
 {
 	try
 	{
-		LayOut(MakeTarget(TargetKind::CHECKERBOARD, board, square, 0), paper, 10);
+		LayOut(MakeBoard(TargetKind::CHECKERBOARD, board, square, 0, ""), paper, 10);
 	}
 	catch (const Error& e)
 	{
@@ -166,7 +166,7 @@ TEST(TargetLayout, KeepsTheQuietZoneClear)
 {
 	for (const char* const paper : { "a3", "a2", "345x290" })
 	{
-		const TargetPage p = LayOut(MakeTarget(TargetKind::CHECKERBOARD, "12x9", 25, 0), paper, 10);
+		const TargetPage p = LayOut(MakeBoard(TargetKind::CHECKERBOARD, "12x9", 25, 0, ""), paper, 10);
 		EXPECT_GE(p.pattern.x, 12.5 + 10 - 1e-9);
 		EXPECT_GE(p.pattern.y, 12.5 + 10 - 1e-9);
 		EXPECT_LE(p.pattern.y + p.pattern_height + 12.5, p.strip.y + 1e-9);
@@ -175,7 +175,7 @@ TEST(TargetLayout, KeepsTheQuietZoneClear)
 
 TEST(TargetLayout, KnowsWhatLooksTheSameTurned)
 {
-	const auto same = [](TargetKind kind, const char* board) { return LooksTheSameTurned(MakeTarget(kind, board, 10, 0)); };
+	const auto same = [](TargetKind kind, const char* board) { return LooksTheSameTurned(MakeBoard(kind, board, 10, 0, "")); };
 	EXPECT_FALSE(same(TargetKind::CHECKERBOARD, "12x9"));
 	EXPECT_TRUE(same(TargetKind::CHECKERBOARD, "12x8"));
 	EXPECT_TRUE(same(TargetKind::CHECKERBOARD, "11x9"));

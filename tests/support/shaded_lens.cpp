@@ -141,18 +141,20 @@ tiltcal::Calibration Shaded(const std::vector<Lens>& lenses, const Shade& shade,
 					photo.white.push_back(patch);
 				}
 		}
-	c.geometry.poses.assign(lenses.size(), poses);
+	c.geometry.states.resize(lenses.size());
 	c.geometry.w_px = lenses[0].w / PITCH;
 	c.solution.w_mm = { lenses[0].w, 0 };
 	c.geometry.shared_poses = true;
-	c.solution.model = "plane";
+	c.solution.model = tiltcal::Model::PLANE;
 	c.solution.aperture_diameter = { lenses[0].d, 0 };
 	c.solution.focal_length = { lenses[0].f, 0 };
 	for (const Lens& lens : lenses)
 	{
 		const Vec n = Normal(lens);
-		c.geometry.principal_point.push_back({ lens.cx, lens.cy });
-		c.geometry.lens_normal.push_back({ n.x(), n.y(), n.z() });
+		tiltcal::StateGeometry& state = c.geometry.states[c.solution.states.size()];
+		state.poses = poses;
+		state.principal_point = { lens.cx, lens.cy };
+		state.lens_normal = { n.x(), n.y(), n.z() };
 		tiltcal::StateLens found;
 		found.q = { n.x() / lens.f, n.y() / lens.f, n.z() / lens.f - 1 / lens.w };   // the vector lens equation
 		c.solution.states.push_back(found);

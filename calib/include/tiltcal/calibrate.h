@@ -29,14 +29,14 @@ struct StateFiles
 
 struct MeasureOptions
 {
-	Transfer transfer;
+	Transfer transfer{};
 	/// Accept a board that appears turned by more than 90 degrees from its upright position. Off by default: a
 	/// checkerboard's colours cannot tell a mirrored picture from a board upside down.
 	bool any_orientation = false;
 	/// 0: all edges; otherwise so many of every photograph, spread over the board (measure/spread_order.h): faster, less accurate.
 	int edges_per_photo = 0;
 	double edge_phase = 0;   ///< 0 to 1: which ones, of measure/spread_order.h
-	Log log;
+	Log log{};
 };
 
 /// Measures every photograph. States come out in the order given; the first is the untilted one. `pitch_mm`: distance of
@@ -71,7 +71,7 @@ struct EffectChoice
 		ALL,     ///< all that can be estimated
 		LIST     ///< exactly `listed`, which may be none
 	} kind = AUTO;
-	std::set<EffectId> listed;
+	std::set<EffectId> listed{};
 
 	/// Named, or one of all.
 	bool Wants(EffectId effect) const { return kind == ALL || (kind == LIST && listed.count(effect) > 0); }
@@ -85,8 +85,8 @@ struct CalibrateOptions
 	std::optional<Model> model;
 	Poses poses = Poses::AUTO;
 	Refinement refinement = Refinement::EDGES;
-	EffectChoice effects;
-	Log log;
+	EffectChoice effects{};
+	Log log{};
 };
 
 /// Solves everything. The paper's model is always solved too, and only refused when it was the one asked for. Then vignetting

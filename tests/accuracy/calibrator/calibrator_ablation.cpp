@@ -42,10 +42,11 @@ struct Line
 
 std::vector<Line> Steps(const tiltcal::Task& task)
 {
+	using tiltcal::Model;
 	using tiltcal::Refinement;
-	const struct { const char* name; const char* model; Refinement refinement; } steps[] = {
-		{ "paper", "paper", Refinement::NONE }, { "rigid", "rigid", Refinement::NONE }, { "plane", "plane", Refinement::NONE },
-		{ "curved", "curved", Refinement::NONE }, { "curved, edges", "curved", Refinement::EDGES }, { "curved, photometric", "curved", Refinement::PHOTOMETRIC } };
+	const struct { const char* name; tiltcal::Model model; Refinement refinement; } steps[] = {
+		{ "paper", Model::PAPER, Refinement::NONE }, { "rigid", Model::RIGID, Refinement::NONE }, { "plane", Model::PLANE, Refinement::NONE },
+		{ "curved", Model::CURVED, Refinement::NONE }, { "curved, edges", Model::CURVED, Refinement::EDGES }, { "curved, photometric", Model::CURVED, Refinement::PHOTOMETRIC } };
 	std::vector<Line> lines;
 	for (const auto& step : steps)
 	{
@@ -55,7 +56,7 @@ std::vector<Line> Steps(const tiltcal::Task& task)
 		tiltcal::GeometryAlone geometry;
 		try
 		{
-			const tiltcal::Calibration c = tiltcal::Calibrate(task, step.model, tiltcal::Poses::AUTO, step.refinement);
+			const tiltcal::Calibration c = tiltcal::Calibrate(task, { step.model, tiltcal::Poses::AUTO, step.refinement });
 			line.states = c.solution.states;
 			geometry = c.geometry_alone;
 		}

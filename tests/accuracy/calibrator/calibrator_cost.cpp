@@ -12,6 +12,7 @@
 
 #include <tiltcal/calibrate.h>
 #include "calibrator_report.h"
+#include "model/names.h"
 #include <tiltcal/error.h>
 #include "base/files.h"
 
@@ -56,7 +57,7 @@ std::vector<Row> Measure(Source& source, const std::string& data, const std::str
 			const double start = CpuSeconds();
 			try
 			{
-				const tiltcal::Calibration c = tiltcal::Calibrate(task, row.model, tiltcal::Poses::AUTO, tiltcal::Refinement::NONE);
+				const tiltcal::Calibration c = tiltcal::Calibrate(task, { tiltcal::ModelNamed(row.model), tiltcal::Poses::AUTO, tiltcal::Refinement::NONE });
 				std::vector<TiltError> found;
 				for (size_t s = 1; s < c.solution.states.size(); ++s)
 					found.push_back(ErrorOf(c.solution.states[s].lens_tilt.value, c.solution.states[s].tilt_direction.value, TRUE_TILT[s]));
