@@ -127,18 +127,20 @@ TEST(Process, WhatIsLeftAloneIsKilled)
 {
 	const TemporaryFolder folder("tiltcal-process");
 	{
-		ProcessSetup setup = Shell("echo $$ > child; sleep 60");
+		ProcessSetup setup = Shell("sleep 60 & echo $! > grandchild; echo $$ > child; wait");
 		setup.folder = folder.Path();
 		const Process process(setup);
 		while (Contents(folder.File("child")).empty())
 			std::this_thread::sleep_for(std::chrono::milliseconds(5));
 	}
 	EXPECT_TRUE(IsGone(folder.File("child")));
+	EXPECT_TRUE(IsGone(folder.File("grandchild")));
 }
 
 TEST(ProcessDeathTest, AnInterruptEndsItsGroupAndIsThrown)
 {
 	const TemporaryFolder folder("tiltcal-process");
+	const auto start = std::chrono::steady_clock::now();
 	// In a child of the test's own: from CatchInterrupts there is no way back.
 	EXPECT_EXIT(
 		{
@@ -156,6 +158,8 @@ TEST(ProcessDeathTest, AnInterruptEndsItsGroupAndIsThrown)
 			_exit(2);
 		},
 		testing::ExitedWithCode(42), "");
+	// Not by itself: GoogleTest waits for whoever holds its pipe.
+	EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
 	EXPECT_TRUE(IsGone(folder.File("grandchild")));
 }
 
