@@ -3,7 +3,8 @@
 #include "cli/commands.h"
 
 #include "model/priors.h"
-#include "base/spelling.h"
+#include "program/program.h"
+#include "program/spelling.h"
 #include "calibrate/measure_all.h"
 #include "model/names.h"
 #include "picture/image_io.h"

@@ -6,8 +6,6 @@
 #ifndef TILTCAL_COMMANDS_H
 #define TILTCAL_COMMANDS_H
 
-#include <tiltcal/log.h>
-
 #include <CLI/CLI.hpp>
 
 #include <string>
@@ -23,9 +21,6 @@ void AddPose(CLI::App& app);
 void AddProfile(CLI::App& app);
 void AddExport(CLI::App& app);
 void AddImport(CLI::App& app);
-
-/// Writes on the log of the program, inputs spelled as options.
-Log ProgramLog();
 
 }
 

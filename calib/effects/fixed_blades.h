@@ -10,7 +10,7 @@
 namespace tiltcal
 {
 
-/// Takes "blades=N", "blade_rotation=DEG" or "blade_curvature=C" of --fix. False: it is none of these. Throws UsageError for a
+/// Takes "blades=N", "blade_rotation=DEG" or "blade_curvature=C". False: it is none of these. Throws UsageError for a
 /// value that no opening has.
 bool TakeBlades(const std::string& text, FixedBlades& blades);
 

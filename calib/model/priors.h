@@ -12,7 +12,7 @@
 namespace tiltcal
 {
 
-/// "focal_length=45" for --fix, "f_number=2.8:0.1" for --prior. Throws UsageError.
+/// "focal_length=45" for what is exact, "f_number=2.8:0.1" for what is known about. Throws UsageError.
 Prior ParseFix(const std::string& text);
 Prior ParsePrior(const std::string& text);
 

@@ -5,7 +5,7 @@
 #include "profile/profile.h"
 
 #include "base/files.h"
-#include "base/gnuplot.h"
+#include "program/gnuplot.h"
 #include "picture/image_io.h"
 
 #include <fmt/format.h>

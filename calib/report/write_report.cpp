@@ -6,7 +6,7 @@
 #include <tiltcal/calibrate.h>
 #include "effects/effects.h"
 #include "base/files.h"
-#include "base/gnuplot.h"
+#include "program/gnuplot.h"
 #include "picture/image_io.h"
 #include "report/overlay.h"
 #include "report/report_html.h"

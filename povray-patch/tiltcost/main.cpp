@@ -4,12 +4,12 @@
 
 #include <tiltcal/error.h>
 #include "base/files.h"
+#include "program/program.h"
 #include "tiltcost/options.h"
 #include "tiltcost/progress.h"
 #include "tiltcost/report.h"
 
 #include <fmt/format.h>
-#include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
@@ -22,12 +22,6 @@ namespace
 {
 
 using namespace tiltcost;
-
-int Fail(tiltcal::ExitCode code, const std::string& message)
-{
-	fmt::print(stderr, "tiltcost: error: {}\n", message);
-	return code;
-}
 
 /// Before the work starts, not after it.
 void CheckFiles(const Options& options)
@@ -132,34 +126,18 @@ void Run(const Options& options)
 
 int main(int argc, char** argv)
 {
-	// Results go to stdout, warnings to stderr.
-	spdlog::set_default_logger(spdlog::stderr_logger_mt("tiltcost"));
-	spdlog::set_pattern("tiltcost: %v");
-	CLI::App app("tiltcost: what accuracy costs in time for a scene with a tilt_lens camera, and which blur_samples and variance\n"
-		"to write into it. Traces a sample of the picture's blocks in a few seconds and predicts the rest.", "tiltcost");
-	try
+	return tiltcal::RunProgram("tiltcost", [&]
 	{
-		Run(ParseCommandLine(app, argc, argv));
-		// A full disk or a closed pipe must not look like success.
-		if (std::fflush(stdout) != 0)
-			return Fail(tiltcal::EXIT_FILE, "the results could not be written to stdout");
+		CLI::App app("tiltcost: what accuracy costs in time for a scene with a tilt_lens camera, and which blur_samples and variance\n"
+			"to write into it. Traces a sample of the picture's blocks in a few seconds and predicts the rest.", "tiltcost");
+		try
+		{
+			Run(ParseCommandLine(app, argc, argv));
+		}
+		catch (const CLI::ParseError& e)
+		{
+			return app.exit(e) == 0 ? tiltcal::EXIT_DONE : tiltcal::EXIT_USAGE;
+		}
 		return tiltcal::EXIT_DONE;
-	}
-	catch (const CLI::ParseError& e)
-	{
-		return app.exit(e) == 0 ? tiltcal::EXIT_DONE : tiltcal::EXIT_USAGE;
-	}
-	catch (const tiltcal::Error& e)
-	{
-		return Fail(e.Code(), e.what());
-	}
-	catch (const tiltcal::Interrupted& e)
-	{
-		fmt::print(stderr, "\ntiltcost: interrupted\n");
-		return 128 + e.signal;
-	}
-	catch (const std::exception& e)
-	{
-		return Fail(tiltcal::EXIT_REFUSED, fmt::format("unexpected: {}", e.what()));
-	}
+	});
 }

@@ -6,8 +6,8 @@
 #ifndef TILTCOST_PILOT_RUN_H
 #define TILTCOST_PILOT_RUN_H
 
-#include "base/process.h"
-#include "base/temporary_folder.h"
+#include "program/process.h"
+#include "program/temporary_folder.h"
 #include "tiltcost/pilot_file.h"
 #include "tiltcost/search.h"
 

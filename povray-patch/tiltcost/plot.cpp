@@ -4,7 +4,7 @@
 
 #include <tiltcal/error.h>
 #include "base/files.h"
-#include "base/gnuplot.h"
+#include "program/gnuplot.h"
 
 #include <fmt/format.h>
 

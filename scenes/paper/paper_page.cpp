@@ -8,7 +8,7 @@
 
 #include <tiltcal/error.h>
 #include "base/files.h"
-#include "base/gnuplot.h"
+#include "program/gnuplot.h"
 #include "report/html.h"
 #include "picture/image_io.h"
 

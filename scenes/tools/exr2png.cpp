@@ -5,7 +5,7 @@
 // A linear OpenEXR picture as an 8-bit sRGB PNG, clipped at 1 and nothing else; and, when asked, PHOTO on the left of
 // the same picture times GAIN. POV-Ray writes one format at a time: this saves the demo a second render.
 
-#include "base/transfer.h"
+#include <tiltcal/transfer.h>
 #include "picture/image_io.h"
 
 #include <opencv2/core.hpp>

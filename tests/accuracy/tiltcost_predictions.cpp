@@ -4,7 +4,7 @@
 // against a reference with other lens samples. Writes tiltcost.csv and tiltcost.html (a
 // fragment for the report) and fails when a prediction is out of bounds.
 
-#include "base/process.h"
+#include "program/process.h"
 #include "support/picture.h"
 
 #include <CLI/CLI.hpp>

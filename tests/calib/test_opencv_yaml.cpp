@@ -3,7 +3,7 @@
 // Cameras to OpenCV and back. The oracle is cv::projectPoints, with its own tilted sensor.
 
 #include <tiltcal/error.h>
-#include "base/temporary_folder.h"
+#include "program/temporary_folder.h"
 #include "model/projection.h"
 #include "camera/opencv_yaml.h"
 #include "support/posed_camera.h"

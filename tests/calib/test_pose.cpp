@@ -3,7 +3,7 @@
 // Poses from points that cv::projectPoints put into the picture.
 
 #include <tiltcal/error.h>
-#include "base/temporary_folder.h"
+#include "program/temporary_folder.h"
 #include "camera/pose.h"
 #include "support/posed_camera.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
-#include "base/process.h"
-#include "base/temporary_folder.h"
+#include "program/process.h"
+#include "program/temporary_folder.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>

@@ -3,7 +3,7 @@
 // Targets to print, measured on the page. Poppler (pdftocairo) reads the PDF; pdftoppm would
 // snap axis-parallel edges to whole pixels.
 
-#include "base/process.h"
+#include "program/process.h"
 #include "measure/detect.h"
 #include <tiltcal/photo.h>
 #include <tiltcal/error.h>

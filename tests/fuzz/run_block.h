@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "base/process.h"
+#include "program/process.h"
 #include "camera_blocks.h"
 
 enum class Outcome

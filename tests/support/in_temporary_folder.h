@@ -2,7 +2,7 @@
 //
 // A test that writes files: a folder for them, which goes with it.
 #pragma once
-#include "base/temporary_folder.h"
+#include "program/temporary_folder.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include "support/run_measured.h"
 
-#include "base/process.h"
+#include "program/process.h"
 
 #include <fstream>
 #include <sstream>

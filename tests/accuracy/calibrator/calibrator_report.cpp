@@ -3,7 +3,7 @@
 #include "calibrator_report.h"
 
 #include "base/files.h"
-#include "base/gnuplot.h"
+#include "program/gnuplot.h"
 #include "report/write_csv.h"
 
 #include <fmt/format.h>

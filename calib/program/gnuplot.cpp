@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
-#include "base/gnuplot.h"
+#include "program/gnuplot.h"
 
 #include <tiltcal/error.h>
 #include "base/files.h"
-#include "base/process.h"
+#include "program/process.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
-#include "base/temporary_folder.h"
+#include "program/temporary_folder.h"
 
 #include <tiltcal/error.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
-#include "base/spelling.h"
+#include "program/spelling.h"
 
 #include <algorithm>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
-#include "base/process.h"
+#include "program/process.h"
 
 #include <tiltcal/error.h>
-#include "base/temporary_folder.h"
+#include "program/temporary_folder.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>

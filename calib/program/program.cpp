@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "program/program.h"
+
+#include "base/files.h"
+#include "program/process.h"
+#include "program/spelling.h"
+
+#include <fmt/format.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+#include <tiltcal/error.h>
+
+#include <cstdio>
+#include <new>
+
+namespace tiltcal
+{
+
+namespace
+{
+
+int Fail(const std::string& name, ExitCode code, const std::string& message)
+{
+	fmt::print(stderr, "{}: error: {}\n", name, SpelledAsOptions(message));
+	return code;
+}
+
+std::string Quoted(const std::string& word)
+{
+	const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
+	if (!word.empty() && word.find_first_not_of(plain) == std::string::npos)
+		return word;
+	std::string out = "'";
+	for (const char c : word)
+		out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+	return out + "'";
+}
+
+}
+
+int RunProgram(const std::string& name, const std::function<int()>& run)
+{
+	spdlog::set_default_logger(spdlog::stderr_logger_mt(name));
+	spdlog::set_pattern(name + ": %v");
+	try
+	{
+		const int code = run();
+		// A full disk or a closed pipe must not look like success.
+		if (code == EXIT_DONE && std::fflush(stdout) != 0)
+			return Fail(name, EXIT_FILE, "the results could not be written to stdout");
+		return code;
+	}
+	catch (const Error& e)
+	{
+		return Fail(name, e.Code(), e.what());
+	}
+	catch (const Interrupted& e)
+	{
+		fmt::print(stderr, "\n{}: interrupted\n", name);
+		return 128 + e.signal;
+	}
+	catch (const std::bad_alloc&)
+	{
+		return Fail(name, EXIT_REFUSED, "out of memory: the pictures are too large");
+	}
+	catch (const std::exception& e)
+	{
+		return Fail(name, EXIT_REFUSED, fmt::format("unexpected: {}", e.what()));
+	}
+}
+
+Log ProgramLog()
+{
+	return Log([](Severity severity, const std::string& message)
+	{
+		spdlog::log(severity == Severity::WARNING ? spdlog::level::warn : spdlog::level::info, "{}", SpelledAsOptions(message));
+	});
+}
+
+std::string CommandLine(int argc, const char* const* argv)
+{
+	std::string out = argc > 0 ? Quoted(BaseName(argv[0])) : "";
+	for (int k = 1; k < argc; ++k)
+		out += " " + Quoted(argv[k]);
+	return out;
+}
+
+}
