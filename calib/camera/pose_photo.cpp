@@ -55,7 +55,7 @@ void Look(const StateCamera& camera, const cv::Mat& grey, int half, const std::v
 		const bool given = p.placed != Placed::NOWHERE;
 		Point at;
 		const bool inside = SeenAt(camera, pose, p.world, at) && at[0] >= 0 && at[1] >= 0 && at[0] <= grey.cols - 1 && at[1] <= grey.rows - 1;
-		// Foretold by the camera: half of what a click may be off. A pixel that is given stays where its owner meant it.
+		// Predicted by the camera: half of what a click may be off. A pixel that is given stays where its owner meant it.
 		const bool near = inside && (!given || std::hypot(at[0] - p.u, at[1] - p.v) <= half);
 		if (p.placed == Placed::MEASURED || (near && Measure(grey, at, half, 0.5 * half, given ? Placed::MEASURED : Placed::FOUND, p)) || given)
 			solved.points.push_back(p);

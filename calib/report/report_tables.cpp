@@ -6,6 +6,7 @@
 #include <tiltcal/calibrate.h>
 #include "effects/effects.h"
 #include "base/files.h"
+#include "camera/state_camera.h"
 #include "report/html.h"
 #include "report/overlay.h"
 
@@ -31,11 +32,14 @@ const double NOT_KNOWN = std::numeric_limits<double>::quiet_NaN();
 Estimate PerMetre(const Estimate& e) { return { 1000 * e.value, 1000 * e.sigma }; }
 
 /// f/d of a state, with the two taken as independent: an upper bound where they rise and fall together.
-Estimate FNumber(const Solution& s, const StateLens& lens)
+Estimate FNumber(const StateCamera& camera)
 {
-	const double f = lens.focal_length.value, d = s.aperture_diameter.value, N = f / d;
-	return { N, std::abs(N) * std::hypot(lens.focal_length.sigma / f, s.aperture_diameter.sigma / d) };
+	const double f = camera.focal_length_mm, d = camera.aperture_diameter_mm, N = f / d;
+	return { N, std::abs(N) * std::hypot(camera.sigma.focal_length_mm / f, camera.sigma.aperture_diameter_mm / d) };
 }
+
+/// As it was fitted, whatever effects are written.
+StateCamera FittedCamera(const Calibration& c, size_t s) { return CameraOfFit(c.task, c.solution, c.MainGeometry(), s); }
 
 std::string PointText(const Point& at, const Point& sigma, const std::string& unit)
 {
@@ -59,15 +63,19 @@ Rows StateRows(const Calibration& c)
 		rows[0].insert(rows[0].end() - 2, "lens centre moved by x, y, z");
 	for (size_t s = 0; s < c.solution.states.size(); ++s)
 	{
-		const StateLens& l = c.solution.states[s];
+		const StateCamera camera = FittedCamera(c, s);
+		const StateCameraSigma& sigma = camera.sigma;
 		const bool tilted = c.task.states[s].tilted;
-		rows.push_back({ Escape(c.task.states[s].name), tilted ? WithSigma(l.lens_tilt, "°") : "none", tilted ? WithSigma(l.tilt_direction, "°") : "–", tilted ? WithSigma(l.focal_plane_tilt, "°") : "parallel",
-			WithSigma(l.focus_distance, "mm", 1), WithSigma(l.focal_length, "mm"), WithSigma(FNumber(c.solution, l), ""),
-			PointText(g.states[s].principal_point, g.states[s].principal_point_sigma, "px") + (g.states[s].principal_point_fixed ? " (held)" : ""), Number(l.rms_blur, 3) + " px", std::to_string(c.task.states[s].photos.size()) });
+		rows.push_back({ Escape(camera.state), tilted ? WithSigma({ camera.lens_tilt_deg, sigma.lens_tilt_deg }, "°") : "none",
+			tilted ? WithSigma({ camera.tilt_direction_deg, sigma.tilt_direction_deg }, "°") : "–",
+			tilted ? WithSigma({ camera.focal_plane_tilt_deg, sigma.focal_plane_tilt_deg }, "°") : "parallel",
+			WithSigma({ camera.focus_distance_mm, sigma.focus_distance_mm }, "mm", 1), WithSigma({ camera.focal_length_mm, sigma.focal_length_mm }, "mm"), WithSigma(FNumber(camera), ""),
+			PointText(camera.principal_point, sigma.principal_point, "px") + (g.states[s].principal_point_fixed ? " (held)" : ""), Number(c.solution.states[s].rms_blur, 3) + " px",
+			std::to_string(c.task.states[s].photos.size()) });
 		if (g.shared_poses)
 		{
-			const Vec3<double>&at = g.states[s].lens_centre, &sigma = g.states[s].lens_centre_sigma;
-			rows.back().insert(rows.back().end() - 2, tilted ? WithSigma({ at.x, sigma.x }, "") + ", " + WithSigma({ at.y, sigma.y }, "") + ", " + WithSigma({ at.z, sigma.z }, "mm") : "–");
+			const Vec3<double>&at = camera.lens_centre_mm, &its = sigma.lens_centre_mm;
+			rows.back().insert(rows.back().end() - 2, tilted ? WithSigma({ at.x, its.x }, "") + ", " + WithSigma({ at.y, its.y }, "") + ", " + WithSigma({ at.z, its.z }, "mm") : "–");
 		}
 	}
 	return rows;
@@ -268,7 +276,7 @@ std::string PriorsTable(const Calibration& c)
 		switch (prior.quantity)
 		{
 		case Quantity::FOCAL_LENGTH: found = s.focal_length; break;
-		case Quantity::F_NUMBER: found = FNumber(s, s.states[0]); break;
+		case Quantity::F_NUMBER: found = FNumber(FittedCamera(c, 0)); break;
 		case Quantity::IMAGE_DISTANCE: found = s.w_mm; break;
 		case Quantity::FOCUS_DISTANCE: found = s.focus_distance; break;
 		case Quantity::APERTURE_DIAMETER: found = s.aperture_diameter; break;

@@ -142,13 +142,13 @@ std::string HowSeparated(const Json& results)
 	const auto closed = [&](const char* state, const char* what)
 	{
 		const Json& picture = states.at(state).at("picture");
-		if (std::string(what) == "foretold")
+		if (std::string(what) == "predicted")
 			return std::hypot(double(picture.at("measured").at("noise").at("rms")), double(picture.at("measured").at("closed_gain").at("rms")));
 		return double(picture.at("measured").at("closed_photograph").at("rms"));
 	};
 	std::string check;
 	for (const char* const state : STATES)
-		check += fmt::format("{}{} against {} ({})", check.empty() ? "" : ", ", Number(closed(state, "foretold"), 2), Number(closed(state, "measured"), 2), Title(state));
+		check += fmt::format("{}{} against {} ({})", check.empty() ? "" : ", ", Number(closed(state, "predicted"), 2), Number(closed(state, "measured"), 2), Title(state));
 	const Json& conditions = results.at("conditions");
 	const std::string electrons = Number(conditions.at("full_well_electrons"), 0) + " electrons at full scale, " + Number(conditions.at("read_noise_electrons"), 0) + " of read noise";
 	return "<h3>How each part was separated</h3>\n<dl>\n"
@@ -159,7 +159,7 @@ std::string HowSeparated(const Json& results)
 		"and the boxes are rendered through what it finds. Start and result differ by the calibration’s error and by the renders’ sampling noise, which is taken off. Lens and model are the same here, so that no error of the model is in it. "
 		"It is one draw: another one’s noise would give another error of this size.</dd>\n"
 		"<dt>model error</dt><dd>What is left of the squares. The parts add in squares because they have no part in common: noise, grain and the closed loop’s draw are zero in the mean wherever the model is wrong. "
-		"<b>Check</b>: in the closed loop, where the model is right, noise and calibration in squares foretell the RMS difference of its own photograph and render over the picture: " + check + ". A little too much is foretold, because compression takes off some of the render’s own grain.</dd>\n"
+		"<b>Check</b>: in the closed loop, where the model is right, noise and calibration in squares predict the RMS difference of its own photograph and render over the picture: " + check + ". A little too much is predicted, because compression takes off some of the render’s own grain.</dd>\n"
 		"<dt>smooth brightness, displacement, change of blur</dt><dd>Fitted to the difference one after the other over the whole picture, robustly: the shading of <code>tiltcal profile</code>, a displacement that is a cubic polynomial in x and y, "
 		"and a cubic polynomial times the picture’s change under a Gaussian of 1 px. Each counts with what it takes away from the model’s error: the closed loop is fitted in the same way and taken off after every step, so that calibration error is not counted twice, "
 		"and two seeds’ grain is taken through the same steps, so that grain which they smooth is not counted as model. The displacement holds an error of the camera’s place too, if there is one. "

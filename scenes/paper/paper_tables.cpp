@@ -185,9 +185,9 @@ Json PupilTable(const Run& run)
 		table["principal_point_px"][state] = { { "value", s.at("principal_point_px") }, { "sigma", s.at("principal_point_sigma_px") } };
 	}
 	table["principal_point_px"]["untilted"] = { { "value", calibration.at("principal_point_px") }, { "sigma", calibration.at("principal_point_sigma_px") } };
-	const Json& tellers = calibration.at("tilt_told_by");
-	if (tellers.contains("geometry_alone") && tellers.at("geometry_alone").contains("pupil_magnification"))
-		table["pupil_magnification"] = Estimate(tellers.at("geometry_alone"), "pupil_magnification", "");
+	const Json& evidence = calibration.at("tilt_told_by");
+	if (evidence.contains("geometry_alone") && evidence.at("geometry_alone").contains("pupil_magnification"))
+		table["pupil_magnification"] = Estimate(evidence.at("geometry_alone"), "pupil_magnification", "");
 	const Json& vignetting = calibration.at("vignetting");
 	if (vignetting.contains("optical"))
 		for (const Json& rim : vignetting.at("optical").at("rims"))

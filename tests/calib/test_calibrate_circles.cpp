@@ -6,9 +6,11 @@
 #include "base/files.h"
 #include "measure/measure_circles.h"
 #include "report/overlay.h"
+#include "report/report_html.h"
 #include "support/thin_lens_picture.h"
 #include "report/write_json.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
@@ -91,6 +93,10 @@ void TiltIsFound(const Board& board, size_t photos)
 	EXPECT_EQ(json["board"]["circle_diameter_mm"], board.circle_diameter_mm);
 	const cv::Mat overlay = DrawOverlay(cv::Mat(480, 640, CV_32FC1, cv::Scalar(0.5)), c, 1, 0);
 	EXPECT_EQ(overlay.cols, 640);
+	// The page calls circles circles.
+	const std::string page = ReportHtml(c, { "edges", "", "" }, ReportPictures(c.task));
+	EXPECT_NE(page.find(fmt::format("{} × {} circles of {:g} mm", board.columns, board.rows, board.circle_diameter_mm)), std::string::npos);
+	EXPECT_EQ(page.find("squares of"), std::string::npos);
 }
 
 TEST(CalibrateCircles, TiltFromASymmetricGrid) { TiltIsFound(MakeBoard(TargetKind::CIRCLES, "9x7", 27, 16, ""), 4); }

@@ -76,7 +76,7 @@ TEST(CalibrateVignetting, FindsTheRimFromTiltedStates)
 	EXPECT_GT(found.darkening.value, 0.1);
 }
 
-// A rim before and one behind the lens, about as in a double Gauss lens. 2.6 sigma as above, of four numbers in three sets. One rim foretells brightness
+// A rim before and one behind the lens, about as in a double Gauss lens. 2.6 sigma as above, of four numbers in three sets. One rim predicts brightness
 // nearly as well, but moves edges to one side.
 TEST(CalibrateVignetting, FindsRimsOnBothSides)
 {
@@ -100,7 +100,7 @@ TEST(CalibrateVignetting, FindsRimsOnBothSides)
 	}
 }
 
-// The same number of rims as there are: no second one is made up for noise. Of ten sets chance may show one at 2 sigma, and it must then foretell better too.
+// The same number of rims as there are: no second one is made up for noise. Of ten sets chance may show one at 2 sigma, and it must then predict better too.
 TEST(CalibrateVignetting, OneRimStaysOne)
 {
 	int second = 0;

@@ -220,6 +220,27 @@ TEST(Photographs, Vignetting)
 	EXPECT_EQ(used, expected);
 }
 
+// The note in calibration.json tells which camera the .inc holds; so does the .inc itself.
+TEST(Photographs, TheNoteSaysWhatTheIncHolds)
+{
+	const Json json = Calibration();
+	EXPECT_EQ(json.at("render").at("note"), "the camera without distortion that the .inc files take where TiltCal_Distortion is set to 0, or where this lens needs no distortion");
+	std::ifstream in(FOLDER + "/camera-plus5.inc");
+	std::stringstream text;
+	text << in.rdbuf();
+	const std::string inc = text.str();
+	// With it unless the scene says otherwise ..
+	EXPECT_THAT(inc, testing::HasSubstr("#ifndef (TiltCal_Distortion)\n\t#declare TiltCal_Distortion = 1;\n#end"));
+	// .. and the numbers are the ones of the note: first those with it, behind #else those of `render`.
+	const auto declared = [&](size_t from) { return std::atof(inc.c_str() + inc.find("_Image_Distance = ", from) + 18); };
+	const size_t without = inc.find("#else", inc.find("#if (TiltCal_Distortion)"));
+	ASSERT_NE(without, std::string::npos);
+	// As many digits as the file has.
+	EXPECT_NEAR(declared(0), json.at("image_distance_mm").get<double>(), 1e-7);
+	EXPECT_NEAR(declared(without), json.at("render").at("image_distance_mm").get<double>(), 1e-7);
+	EXPECT_GT(std::abs(declared(0) - declared(without)), 1e-3);
+}
+
 TEST(Photographs, FilesAreThere)
 {
 	for (const char* const name : { "camera-untilted.inc", "camera-plus5.inc", "camera-minus5.inc", "report.txt", "report.html", "overlay-untilted-1.png", "overlay-minus5-6.png" })

@@ -68,7 +68,7 @@ TEST(ChooseModel, CurvedWhereThereIsABowl)
 	ASSERT_TRUE(c.compared);
 	EXPECT_EQ(c.compared->plane.model, Model::PLANE);
 	EXPECT_LT(c.compared->curved.held_out_px, c.compared->plane.held_out_px);
-	// An edge's noise is all that is left to foretell.
+	// An edge's noise is all that is left to predict.
 	EXPECT_NEAR(c.compared->curved.held_out_px, 0.06, 0.01);
 }
 
@@ -90,7 +90,7 @@ TEST(ChooseModel, CurvedNeedsEvidence)
 	EXPECT_FALSE(CurvatureIsSeen(plane, curved)) << "not significant";
 	curved.field_curvature.sigma = 0.0001;
 	curved.held_out_px = 0.41;
-	EXPECT_FALSE(CurvatureIsSeen(plane, curved)) << "foretells worse";
+	EXPECT_FALSE(CurvatureIsSeen(plane, curved)) << "predicts worse";
 	// One photograph a state: none can be left out.
 	plane.held_out_px = curved.held_out_px = 0;
 	EXPECT_FALSE(CurvatureIsSeen(plane, curved));

@@ -109,11 +109,11 @@ void CheckAblation(const Json& results)
 		// displaced may not, beyond chance: a tenth of the whole, half of which is grain with 8 samples (measured: 4 % below).
 		for (const char* const part : { "calibration", "rest" })
 			Check(double(squares.at(part)) > -0.1 * whole, std::string(state) + ", " + part + ": " + Said(squares.at(part)) + " of " + Said(whole));
-		// Squares add: foretold from noise and calibration, and measured. They differ by the mean of the product, which falls with the root of
+		// Squares add: predicted from noise and calibration, and measured. They differ by the mean of the product, which falls with the root of
 		// two million pixels; but JPEG takes some of the render's grain off, which counts as noise and is not there in the sum: 8 % too much
-		// is foretold with 64 samples and every edge, 4 % with 16, nothing where few edges make calibration the larger part.
+		// is predicted with 64 samples and every edge, 4 % with 16, nothing where few edges make calibration the larger part.
 		const double noise = measured.at("noise").at("rms"), closed = measured.at("closed_gain").at("rms"), both = measured.at("closed_photograph").at("rms");
-		Check(std::abs(std::hypot(noise, closed) / both - 1) < 0.1, std::string(state) + ": closed loop foretold " + Said(std::hypot(noise, closed)) + ", measured " + Said(both));
+		Check(std::abs(std::hypot(noise, closed) / both - 1) < 0.1, std::string(state) + ": closed loop predicted " + Said(std::hypot(noise, closed)) + ", measured " + Said(both));
 		// The displacement was found: a fit that runs away moves the picture by many pixels.
 		Check(double(all.at("displacement").at("rms_px")) < 3, std::string(state) + ": displacement " + Said(all.at("displacement").at("rms_px")) + " px");
 	}

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 //
-// A scene of markers whose pixels OpenCV's tilted sensor model foretells.
+// A scene of markers whose pixels OpenCV's tilted sensor model predicts.
 //
 //   pose_markers make                 writes camera.yml, points.csv and markers.inc here
 //   pose_markers check PICTURE LIMIT  exit 0: every marker of PICTURE within LIMIT pixels of points.csv
