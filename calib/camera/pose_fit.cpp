@@ -5,6 +5,7 @@
 #include "lens/angles.h"
 #include "model/projection.h"
 #include "base/robust.h"
+#include "solve/least_squares.h"
 
 #include <Eigen/SVD>
 #include <ceres/ceres.h>
@@ -178,20 +179,12 @@ bool PoseFit::Refine(double loss_px, PoseMinimum& m) const
 	Blocks blocks(m);
 	ceres::Problem problem;
 	Build(camera, normal, points, loss_px, blocks, problem);
-	ceres::Solver::Options options;
-	options.linear_solver_type = ceres::DENSE_QR;
-	options.max_num_iterations = 200;
-	options.function_tolerance = 1e-14;
-	options.parameter_tolerance = 1e-13;
-	options.gradient_tolerance = 1e-14;
-	options.logging_type = ceres::SILENT;
-	ceres::Solver::Summary summary;
-	ceres::Solve(options, &problem, &summary);
-	if (!summary.IsSolutionUsable())
+	const std::optional<double> cost = SolveLeastSquares({ ceres::DENSE_QR, 200, 1e-14, 1e-13, 1e-14 }, problem);
+	if (!cost)
 		return false;
 	m.rotation = Eigen::Quaterniond(blocks.rotation[0], blocks.rotation[1], blocks.rotation[2], blocks.rotation[3]).normalized();
 	m.location = { blocks.location[0], blocks.location[1], blocks.location[2] };
-	m.misfit = 2 * summary.final_cost;
+	m.misfit = 2 * *cost;
 	return true;
 }
 

@@ -5,6 +5,7 @@
 #include "lens/angles.h"
 #include "model/projection.h"
 #include "base/robust.h"
+#include "solve/least_squares.h"
 
 #include <Eigen/Dense>
 #include <ceres/ceres.h>
@@ -164,14 +165,7 @@ std::optional<double> FalloffFit::Minimise(FalloffUnknowns& x) const
 {
 	ceres::Problem problem;
 	Build(*this, x, problem);
-	ceres::Solver::Options options;
-	options.linear_solver_type = ceres::DENSE_SCHUR;
-	options.max_num_iterations = 60;
-	options.function_tolerance = 1e-9;
-	options.logging_type = ceres::SILENT;
-	ceres::Solver::Summary summary;
-	ceres::Solve(options, &problem, &summary);
-	return summary.IsSolutionUsable() ? std::optional<double>(summary.final_cost) : std::nullopt;
+	return SolveLeastSquares({ ceres::DENSE_SCHUR, 60, 1e-9 }, problem);
 }
 
 bool FalloffFit::Search(double focal_length, FalloffUnknowns& x)

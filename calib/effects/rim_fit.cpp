@@ -3,6 +3,7 @@
 #include "effects/rim_fit.h"
 
 #include "base/robust.h"
+#include "solve/least_squares.h"
 
 #include <Eigen/Dense>
 #include <ceres/ceres.h>
@@ -184,15 +185,9 @@ std::optional<double> RimFit::Solve(const std::vector<Block>& blocks, Rims& rims
 		for (size_t i = 2 * k; i < 2 * k + 2; ++i)
 			x[i] = std::clamp(x[i], problem.GetParameterLowerBound(x.data(), int(i)), problem.GetParameterUpperBound(x.data(), int(i)));
 	}
-	ceres::Solver::Options options;
-	options.linear_solver_type = ceres::DENSE_QR;
-	options.max_num_iterations = iterations;
-	options.function_tolerance = 1e-6;
-	options.logging_type = ceres::SILENT;
-	ceres::Solver::Summary summary;
-	ceres::Solve(options, &problem, &summary);
+	const std::optional<double> final_cost = SolveLeastSquares({ ceres::DENSE_QR, iterations, 1e-6 }, problem);
 	FromNumbers(x.data(), rims);
-	return summary.IsSolutionUsable() ? std::optional<double>(summary.final_cost) : std::nullopt;
+	return final_cost;
 }
 
 std::optional<double> RimFit::Minimise(Rims& rims, size_t left_out, int iterations) const { return Solve(Blocks(Part::WITHOUT, left_out), rims, iterations); }

@@ -9,6 +9,7 @@
 #include "solve/prior_cost.h"
 #include "base/robust.h"
 #include "solve/solve_geometry.h"
+#include "solve/least_squares.h"
 
 #include <ceres/ceres.h>
 
@@ -151,15 +152,9 @@ std::optional<double> BlurFit::Minimise(Unknowns& x, Free free, size_t state) co
 {
 	ceres::Problem problem;
 	Build(*this, problem, x, free, state);
-	ceres::Solver::Options options;
-	options.linear_solver_type = ceres::DENSE_QR;
-	options.max_num_iterations = 100;
-	options.function_tolerance = 1e-10;
-	options.logging_type = ceres::SILENT;
-	ceres::Solver::Summary summary;
-	ceres::Solve(options, &problem, &summary);
+	const std::optional<double> cost = SolveLeastSquares({ ceres::DENSE_QR, 100, 1e-10 }, problem);
 	x.d = std::abs(x.d);
-	return summary.IsSolutionUsable() ? std::optional<double>(summary.final_cost) : std::nullopt;
+	return cost;
 }
 
 double BlurFit::Scale(const Unknowns& x) const

@@ -7,6 +7,7 @@
 #include "solve/edge_cost.h"
 #include "solve/prior_cost.h"
 #include "solve/solve_geometry.h"
+#include "solve/least_squares.h"
 
 #include <ceres/ceres.h>
 
@@ -211,17 +212,12 @@ bool JointFit::Minimise(Geometry& g, Unknowns& x) const
 {
 	ceres::Problem problem;
 	Build(*this, g, x, problem);
-	ceres::Solver::Options options;
-	options.linear_solver_type = ceres::DENSE_SCHUR;
-	options.max_num_iterations = 60;
-	options.function_tolerance = 1e-9;
-	options.num_threads = 2;
-	options.logging_type = ceres::SILENT;
-	ceres::Solver::Summary summary;
-	ceres::Solve(options, &problem, &summary);
+	LeastSquares how{ ceres::DENSE_SCHUR, 60, 1e-9 };
+	how.threads = 2;
+	const bool solved = SolveLeastSquares(how, problem).has_value();
 	x.d = std::abs(x.d);
 	SpreadPoses(g);
-	return summary.IsSolutionUsable();
+	return solved;
 }
 
 std::optional<LensCovariance> JointFit::Covariance(Geometry& g, Unknowns& x) const

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
 #include "solve/solve_geometry.h"
+#include "solve/least_squares.h"
 
 #include "model/predict.h"
 
@@ -127,17 +128,11 @@ void Build(const Task& task, Geometry& g, double model_sigma, ceres::Problem& pr
 
 void Solve(ceres::Problem& problem)
 {
-	ceres::Solver::Options options;
-	options.linear_solver_type = ceres::DENSE_SCHUR;
-	options.max_num_iterations = 200;
-	options.function_tolerance = 1e-12;
-	options.parameter_tolerance = 1e-12;
-	options.num_threads = 2;
-	options.logging_type = ceres::SILENT;
-	ceres::Solver::Summary summary;
-	ceres::Solve(options, &problem, &summary);
-	if (!summary.IsSolutionUsable())
-		throw Refused("the reprojection fit did not converge: " + summary.message);
+	LeastSquares how{ ceres::DENSE_SCHUR, 200, 1e-12, 1e-12 };
+	how.threads = 2;
+	std::string why;
+	if (!SolveLeastSquares(how, problem, &why))
+		throw Refused("the reprojection fit did not converge: " + why);
 }
 
 /// Standard deviations, rescaled by the residuals; false when the problem is singular.

@@ -6,6 +6,7 @@
 #include "model/projection.h"
 #include <tiltcal/photo.h>
 #include <tiltcal/error.h>
+#include "solve/least_squares.h"
 #include "solve/solve_geometry.h"
 #include "model/tilt_angles.h"
 
@@ -95,15 +96,7 @@ struct StageOne
 	double w_sigma = 0, U_sigma = 0, d_sigma = 0, cost = 0;
 };
 
-ceres::Solver::Options Options()
-{
-	ceres::Solver::Options options;
-	options.linear_solver_type = ceres::DENSE_QR;
-	options.max_num_iterations = 200;
-	options.function_tolerance = 1e-12;
-	options.logging_type = ceres::SILENT;
-	return options;
-}
+const LeastSquares HOW{ ceres::DENSE_QR, 200, 1e-12 };
 
 void Build(const std::vector<Feature>& features, StageOne& s, ceres::Problem& problem)
 {
@@ -163,11 +156,10 @@ StageOne SolveStageOne(const Task& task, const Geometry& start)
 		StageOne s{ start.w_px, 1 / guess.inverse_focus, guess.diameter, poses };
 		ceres::Problem problem;
 		Build(features, s, problem);
-		ceres::Solver::Summary summary;
-		ceres::Solve(Options(), &problem, &summary);
-		if (summary.IsSolutionUsable() && (!best || summary.final_cost < best->cost))
+		const std::optional<double> cost = SolveLeastSquares(HOW, problem);
+		if (cost && (!best || *cost < best->cost))
 		{
-			s.cost = summary.final_cost;
+			s.cost = *cost;
 			best = s;
 		}
 	}
@@ -211,9 +203,7 @@ Estimate SolveStageTwo(const std::vector<StageTwoCost>& costs, StateLens& lens)
 	ceres::Problem problem;
 	for (const StageTwoCost& c : costs)
 		problem.AddResidualBlock(new ceres::AutoDiffCostFunction<StageTwoCost, 1, 1>(new StageTwoCost(c)), nullptr, &best);
-	ceres::Solver::Summary summary;
-	ceres::Solve(Options(), &problem, &summary);
-	lens.converged = summary.IsSolutionUsable();
+	lens.converged = SolveLeastSquares(HOW, problem).has_value();
 	ceres::CRSMatrix J;
 	problem.Evaluate(ceres::Problem::EvaluateOptions(), nullptr, nullptr, nullptr, &J);
 	double information = 0;

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// The one call of Ceres' solver.
+
+#ifndef TILTCAL_LEAST_SQUARES_H
+#define TILTCAL_LEAST_SQUARES_H
+
+#include <ceres/problem.h>
+#include <ceres/types.h>
+
+#include <optional>
+#include <string>
+
+namespace tiltcal
+{
+
+/// How a problem is solved; the tolerances are Ceres' relative ones.
+struct LeastSquares
+{
+	ceres::LinearSolverType linear_solver = ceres::DENSE_QR;
+	int iterations = 50;
+	double function_tolerance = 1e-6, parameter_tolerance = 1e-8, gradient_tolerance = 1e-10;
+	int threads = 1;
+};
+
+/// Solves in place, in silence. Returns the cost, half the sum of the squares as their losses count them; none where Ceres has no
+/// usable solution; then `why` holds its words.
+std::optional<double> SolveLeastSquares(const LeastSquares& how, ceres::Problem& problem, std::string* why = nullptr);
+
+}
+
+#endif
