@@ -94,8 +94,23 @@ bool SameCounts(const Task& task)
 	return true;
 }
 
+/// RMS of the reprojection if the board stood still between the states; none where no camera has such poses.
+std::optional<double> RmsOfSharedPoses(const Task& task, const std::vector<Vec3<double>>& normals)
+{
+	try
+	{
+		return SolveGeometry(task, { 2, normals, true }).rms;
+	}
+	catch (const Error& e)
+	{
+		if (e.Code() != EXIT_REFUSED)
+			throw;
+		return std::nullopt;
+	}
+}
+
 /// A board that was moved between the states shows as a reprojection error of many
-/// pixels; the little that the pupil moves when the lens tilts does not double it.
+/// pixels, or as no answer; the little that the pupil moves when the lens tilts does not double it.
 bool PosesAreShared(const Task& task, const std::vector<Vec3<double>>& normals, const CalibrateOptions& o)
 {
 	if (task.states.size() < 2 || o.poses == Poses::OWN)
@@ -108,9 +123,11 @@ bool PosesAreShared(const Task& task, const std::vector<Vec3<double>>& normals, 
 	}
 	if (o.poses == Poses::SHARED)
 		return true;
-	const double own = SolveGeometry(task, { 2, normals, false }).rms, shared = SolveGeometry(task, { 2, normals, true }).rms;
-	const bool same = shared < 2 * own + 0.1;
-	o.log.Info(fmt::format("board poses {} between the states: reprojection {:.3f} px if shared, {:.3f} px with own poses", same ? "shared" : "differ", shared, own));
+	const double own = SolveGeometry(task, { 2, normals, false }).rms;
+	const std::optional<double> shared = RmsOfSharedPoses(task, normals);
+	const bool same = shared && *shared < 2 * own + 0.1;
+	o.log.Info(fmt::format("board poses {} between the states: reprojection {} if shared, {:.3f} px with own poses", same ? "shared" : "differ",
+		shared ? fmt::format("{:.3f} px", *shared) : "without an answer", own));
 	return same;
 }
 
