@@ -33,11 +33,12 @@ file(REMOVE "${root}/usr/share/povray-tilt/ini/povray.ini")
 # Documents, laid out so that their links lead somewhere, and the scenes with their pictures as examples.
 foreach(document README.md povray-patch/RENDERING.md povray-patch/REFERENCE.md povray-patch/ray-error.png povray-patch/LIMITS.md
 		povray-patch/COMING-FROM.md povray-patch/tiltcost/COSTS.md calib/CALIBRATING.md calib/CALIBRATION-JSON.md
-		tests/accuracy/ACCURACY.md)
+		tests/accuracy/ACCURACY.md tests/cli/outside/tilts.cpp tests/cli/outside/CMakeLists.txt)
 	get_filename_component(folder "${document}" DIRECTORY)
 	file(COPY "${source}/${document}" DESTINATION "${doc}/${folder}")
 endforeach()
-file(GLOB model "${source}/povray-patch/lens/MODEL*")
+# The page on the model leads to the sources of its formulas.
+file(GLOB model "${source}/povray-patch/lens/MODEL*" "${source}/povray-patch/lens/*.h" "${source}/povray-patch/lens/effects.cpp")
 file(COPY ${model} DESTINATION "${doc}/povray-patch/lens")
 file(MAKE_DIRECTORY "${doc}/calib/report")
 file(CREATE_LINK ../../../../tilt-lens/calibration.schema.json "${doc}/calib/report/calibration.schema.json" SYMBOLIC)

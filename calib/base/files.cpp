@@ -161,7 +161,7 @@ void WriteAtomically(const std::string& file, const std::function<bool(const std
 	}
 	catch (...)
 	{
-		// An interrupt (process.h).
+		// Such as an interrupt.
 		fs::remove(temporary, code);
 		throw;
 	}

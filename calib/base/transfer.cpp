@@ -53,7 +53,7 @@ double ToLinear(const Transfer& transfer, double coded)
 
 double EncodeSrgb(double linear)
 {
-	const double c = std::clamp(linear, 0.0, 1.0);
+	const double c = linear > 0 ? std::min(linear, 1.0) : 0.0;   // no number is black
 	return c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
 }
 

@@ -179,6 +179,19 @@ std::optional<Model> ModelFor(const CalibrateOptions& o)
 	return o.model ? o.model : Model::PLANE;
 }
 
+/// What a program could have left out. Throws UsageError.
+void CheckTask(const Task& task)
+{
+	CheckPitch(task.pitch_mm);
+	if (task.states.empty())
+		throw UsageError("the task has no states: the first is the untilted one");
+	for (const State& state : task.states)
+		if (state.photos.empty())
+			throw UsageError(fmt::format("state {}: no photographs", state.name));
+	if (task.width < 1 || task.height < 1)
+		throw UsageError("the task does not say the photographs' width and height, px");
+}
+
 void LogEffects(const Calibration& c, const Log& log)
 {
 	if (!c.vignetting.failure.empty())
@@ -248,6 +261,8 @@ Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, doubl
 void AddFlatField(Task& task, size_t state, const std::string& file, const MeasureOptions& o)
 {
 	const QuietLibraries quiet;
+	if (state >= task.states.size())
+		throw UsageError(fmt::format("`flat_field` {}: there is no state {}; the task has {}, counted from 0", file, state, task.states.size()));
 	const cv::Mat picture = ReadLinear(file, o.transfer);
 	if (picture.cols != task.width || picture.rows != task.height)
 		throw Refused(fmt::format("`flat_field` {}: is {}x{} pixels, the photographs of the board are {}x{}; all must come from the same camera, uncropped and not turned",
@@ -259,6 +274,7 @@ void AddFlatField(Task& task, size_t state, const std::string& file, const Measu
 Calibration Calibrate(const Task& task, const CalibrateOptions& o)
 {
 	const QuietLibraries quiet;
+	CheckTask(task);
 	const Log& log = o.log;
 	Calibration c;
 	c.task = task;

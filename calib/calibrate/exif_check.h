@@ -24,7 +24,7 @@ PhotographFacts CommonFacts(const std::vector<PhotographFacts>& all);
 PhotographFacts CommonFacts(const Task& task);
 
 /// Pitch from EXIF, mm, logged; 0.2 % is the most by which photographs may differ. Throws UsageError
-/// that asks for --pitch when they do not say it; FileError.
+/// that asks for the pitch when they do not say it; FileError.
 double PitchFromExif(const std::vector<std::string>& files, const Log& log);
 
 /// Logs the facts; warns when photographs of the task disagree, and of orientations that are not applied.

@@ -2,10 +2,12 @@
 
 #include "camera/camera_block.h"
 
+#include "model/names.h"
 #include "model/projection.h"
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <cmath>
 
 namespace tiltcal
@@ -36,6 +38,13 @@ std::string PlainNumbers::Text(const std::string&, double value, Unit unit) cons
 
 std::string DeclaredNumbers::Text(const std::string& name, double, Unit) const { return prefix_ + "_" + name; }
 
+std::string DeclaredDistortion(size_t k)
+{
+	std::string name = DISTORTION_NAMES[k];
+	name[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(name[0])));
+	return name;
+}
+
 std::string RimName(size_t k) { return k ? fmt::format("Rim{}", k + 1) : "Rim"; }
 
 std::string EffectLines(const StateCamera& c, const BlockNumbers& numbers, const BlockLayout& layout)
@@ -49,10 +58,9 @@ std::string EffectLines(const StateCamera& c, const BlockNumbers& numbers, const
 		add("field_curvature", numbers.Text("Field_Curvature", c.field_curvature_per_mm, Unit::PER_LENGTH));
 	if (c.HasDistortion())
 	{
-		const char* const names[] = { "K1", "K2", "P1", "P2", "K3" };
 		std::string values;
 		for (size_t k = 0; k < 5; ++k)
-			values += (k ? ", " : "") + numbers.Text(names[k], c.distortion[k], Unit::NONE);
+			values += (k ? ", " : "") + numbers.Text(DeclaredDistortion(k), c.distortion[k], Unit::NONE);
 		add("distortion", values, layout.distortion_only_if);
 	}
 	if (c.natural_vignetting)

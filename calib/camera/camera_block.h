@@ -65,6 +65,9 @@ std::string CameraBlockText(const StateCamera& camera, const BlockNumbers& numbe
 /// Only the lines of the effects, each indented by two tabs and ended.
 std::string EffectLines(const StateCamera& camera, const BlockNumbers& numbers, const BlockLayout& layout);
 
+/// K1, K2, P1, P2, K3: in the names of the distortion's numbers.
+std::string DeclaredDistortion(size_t k);
+
 /// Rim, Rim2: in the names of the rims' numbers.
 std::string RimName(size_t k);
 

@@ -9,6 +9,9 @@
 #include "lens/field_curvature.h"
 #include "model/projection.h"
 
+#include <fmt/format.h>
+#include <tiltcal/error.h>
+
 #include <cmath>
 
 namespace tiltcal
@@ -74,6 +77,8 @@ StateCamera CameraOfFit(const Task& task, const Solution& solution, const Geomet
 
 StateCamera CameraOfState(const Calibration& c, size_t s, Distorted distorted)
 {
+	if (s >= c.solution.states.size())
+		throw UsageError(fmt::format("there is no state {}; the calibration has {}, counted from 0", s, c.solution.states.size()));
 	const bool bare = distorted == Distorted::NO || !Uses(c, EffectId::DISTORTION);
 	StateCamera camera = bare ? CameraOfFit(c.task, c.render, c.RenderGeometry(), s) : CameraOfFit(c.task, c.solution, c.MainGeometry(), s);
 	AddEffects(c, camera);

@@ -2,6 +2,7 @@
 
 #include "camera/state_camera.h"
 
+#include "model/names.h"
 #include <tiltcal/error.h>
 #include "base/files.h"
 
@@ -21,7 +22,6 @@ namespace
 using Json = nlohmann::ordered_json;
 
 const double INFINITY_MM = std::numeric_limits<double>::infinity();
-const char* const DISTORTION_NAMES[] = { "k1", "k2", "p1", "p2", "k3" };
 
 /// A value of the file that knows where it stands, for the errors.
 struct Node

@@ -15,11 +15,6 @@ namespace tiltcal
 /// What one fit says of a state's camera, without any choice of effects.
 StateCamera CameraOfFit(const Task& task, const Solution& solution, const Geometry& geometry, size_t state);
 
-/// The camera of one state of calibration.json; `state` empty: the first, which is the
-/// untilted one. Throws FileError: unreadable, not JSON, a key missing or of the wrong kind
-/// (file and key are named). Throws UsageError: no such state (those there are listed).
-StateCamera ReadStateCamera(const std::string& file, const std::string& state);
-
 /// A calibration.json with this one state, for ReadStateCamera. An unknown focus and an unknown aperture are null.
 std::string StateCameraJson(const StateCamera& camera, const std::string& source);
 

@@ -112,9 +112,8 @@ std::string Numbers(const Calibration& c, size_t s, Distorted distorted, const s
 		declare("Field_Curvature", camera.field_curvature_per_mm, sigma.field_curvature_per_mm,
 			"1/mm, of the bowl that the plane of focus touches on the lens axis" + Unused(c, EffectId::FIELD_CURVATURE));
 	declare("Psf_Floor", camera.psf_floor_px, sigma.psf_floor_px, "px, the lens's own blur, not rendered");
-	const char* const names[] = { "K1", "K2", "P1", "P2", "K3" };
 	for (size_t k = 0; k < 5 && g.distortion_terms > 0; ++k)
-		declare(names[k], camera.distortion[k], sigma.distortion[k], k ? "" : "of the distortion" + Unused(c, EffectId::DISTORTION));
+		declare(DeclaredDistortion(k), camera.distortion[k], sigma.distortion[k], k ? "" : "of the distortion" + Unused(c, EffectId::DISTORTION));
 	out += EffectNumbers(c, prefix);
 	out += fmt::format("#declare {}_Lens_Centre = {};   // +- {} mm, seen from the untilted one: right, up, forward\n", prefix,
 		Vector(camera.lens_centre_mm), Vector(sigma.lens_centre_mm, 2));

@@ -8,6 +8,8 @@
 
 #include <tiltcal/error.h>
 
+#include <new>
+
 int main(int argc, char** argv)
 {
 	// What Ceres and OpenCV have to say is said in our own errors.
@@ -33,6 +35,10 @@ int main(int argc, char** argv)
 		catch (const CLI::ParseError& e)
 		{
 			return app.exit(e) == 0 ? tiltcal::EXIT_DONE : tiltcal::EXIT_USAGE;
+		}
+		catch (const std::bad_alloc&)
+		{
+			throw tiltcal::Refused("out of memory: the pictures are too large");
 		}
 		return tiltcal::EXIT_DONE;
 	});

@@ -43,11 +43,10 @@ Effect DistortionOf(const Calibration& c, const EffectChoice& choice)
 		e.failure = "no coefficient is significant and lowers the reprojection error";
 	if (!e.failure.empty())
 		return e;
-	const char* const names[] = { "k1", "k2", "p1", "p2", "k3" };
 	for (size_t k = 0; k < 5; ++k)
 		if (g.distortion_sigma[k] > 0)
 		{
-			e.values.emplace_back(names[k], Estimate{ g.distortion[k], g.distortion_sigma[k] });
+			e.values.emplace_back(DISTORTION_NAMES[k], Estimate{ g.distortion[k], g.distortion_sigma[k] });
 			e.sigmas = std::max(e.sigmas, Sigmas(e.values.back().second));
 		}
 	e.held_out_without = CornersLeftOut(c.task, { 0, LensNormals(g), g.shared_poses });

@@ -2,6 +2,7 @@
 
 #include "measure/find_board.h"
 
+#include "lens/angles.h"
 #include <tiltcal/error.h>
 #include "picture/image_io.h"
 
@@ -59,7 +60,7 @@ std::vector<double> Scales(const cv::Mat& picture)
 /// Reduced by `scale` and stretched twofold in direction `degrees`; `map` receives small_from_full.
 cv::Mat Stretch(const cv::Mat& picture, double scale, double degrees, cv::Mat& map)
 {
-	const double c = std::cos(degrees * CV_PI / 180), s = std::sin(degrees * CV_PI / 180);
+	const double c = std::cos(degrees * tilt_lens::Pi / 180), s = std::sin(degrees * tilt_lens::Pi / 180);
 	const cv::Matx22d A = scale * cv::Matx22d(1 + c * c, c * s, c * s, 1 + s * s);
 	double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 	for (const double x : { 0.0, picture.cols - 1.0 })

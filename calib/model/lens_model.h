@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 //
 // What the exact models take a lens for: which numbers give a state's plane of focus.
-// They differ in nothing else (solve_blur.h).
+// They differ in nothing else (solve/solve_lens.h).
 
 #ifndef TILTCAL_LENS_MODEL_H
 #define TILTCAL_LENS_MODEL_H

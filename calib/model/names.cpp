@@ -6,11 +6,13 @@ namespace tiltcal
 {
 
 const std::array<ModelWords, 4> MODELS{ {
-	{ Model::CURVED, "curved", "exact, with field curvature" },
+	{ Model::CURVED, "curved", "exact, with a field curvature common to all states" },
 	{ Model::PLANE, "plane", "exact, a free plane of focus in every state" },
-	{ Model::RIGID, "rigid", "exact, the lens only turns" },
+	{ Model::RIGID, "rigid", "exact, the lens only turns and keeps f and w" },
 	{ Model::PAPER, "paper", "Baba, Nakane, Hiura (3), (4), (1)" },
 } };
+
+const std::array<const char*, 5> DISTORTION_NAMES{ "k1", "k2", "p1", "p2", "k3" };
 
 namespace
 {

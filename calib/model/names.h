@@ -23,6 +23,9 @@ struct ModelWords
 /// Every model; the ones to rely on first.
 extern const std::array<ModelWords, 4> MODELS;
 
+/// Of the five of Distortion, in its order.
+extern const std::array<const char*, 5> DISTORTION_NAMES;
+
 std::optional<Model> ModelNamed(const std::string& name);
 
 /// "exact, a free plane of focus in every state".

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 //
-// What the photographer knows of the lens beforehand: --fix and --prior.
+// What the photographer knows of the lens beforehand: what is exact and what is known about.
 
 #ifndef TILTCAL_PRIORS_H
 #define TILTCAL_PRIORS_H

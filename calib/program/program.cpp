@@ -12,7 +12,6 @@
 #include <tiltcal/error.h>
 
 #include <cstdio>
-#include <new>
 
 namespace tiltcal
 {
@@ -59,10 +58,6 @@ int RunProgram(const std::string& name, const std::function<int()>& run)
 	{
 		fmt::print(stderr, "\n{}: interrupted\n", name);
 		return 128 + e.signal;
-	}
-	catch (const std::bad_alloc&)
-	{
-		return Fail(name, EXIT_REFUSED, "out of memory: the pictures are too large");
 	}
 	catch (const std::exception& e)
 	{

@@ -7,21 +7,24 @@
 namespace tiltcal
 {
 
+namespace
+{
+
+const char* const INPUTS[] = { "any_orientation", "board", "circle_diameter", "edges_per_photo", "effects", "fix", "flat_field", "model", "opencv", "out", "photo",
+	"pitch", "poses", "prior", "square", "state", "target", "transfer" };
+
+}
+
 std::string SpelledAsOptions(const std::string& text)
 {
-	std::string out;
-	for (size_t at = 0; at < text.size();)
+	std::string out = text;
+	for (const std::string input : INPUTS)
 	{
-		const size_t end = text[at] == '`' ? text.find_first_not_of("abcdefghijklmnopqrstuvwxyz_", at + 1) : std::string::npos;
-		if (end == std::string::npos || text[end] != '`' || end == at + 1)
-		{
-			out += text[at++];
-			continue;
-		}
-		std::string option = text.substr(at + 1, end - at - 1);
+		const std::string quoted = "`" + input + "`";
+		std::string option = "--" + input;
 		std::replace(option.begin(), option.end(), '_', '-');
-		out += "--" + option;
-		at = end + 1;
+		for (size_t at = 0; (at = out.find(quoted, at)) != std::string::npos; at += option.size())
+			out.replace(at, quoted.size(), option);
 	}
 	return out;
 }

@@ -10,7 +10,7 @@
 namespace tiltcal
 {
 
-/// The text with every input spelled as an option. A backquote that names no input (small letters and _) stays.
+/// The text with every input spelled as an option. What stands in backquotes and is none of tiltcal's inputs stays.
 std::string SpelledAsOptions(const std::string& text);
 
 }

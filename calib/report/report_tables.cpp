@@ -2,6 +2,7 @@
 
 #include "report/report_tables.h"
 
+#include "model/names.h"
 #include "model/predict.h"
 #include <tiltcal/calibrate.h>
 #include "effects/effects.h"
@@ -107,11 +108,10 @@ Rows CommonRows(const Calibration& c)
 		rows.push_back({ "sagittal", WithSigma(PerMetre(s.sagittal_curvature), "per metre"), "seen by edges along the radius" });
 	}
 	rows.push_back({ "floor", WithSigma(s.psf_floor_px, "px", 2), "the lens's own blur, added in squares" });
-	const char* const names[] = { "k1", "k2", "p1", "p2", "k3" };
 	const std::vector<size_t> used = g.distortion_terms >= 5 ? std::vector<size_t>{ 0, 1, 2, 3, 4 } : g.distortion_terms >= 4 ? std::vector<size_t>{ 0, 1, 2, 3 }
 		: g.distortion_terms >= 2 ? std::vector<size_t>{ 0, 1 } : g.distortion_terms == 1 ? std::vector<size_t>{ 0 } : std::vector<size_t>{};
 	for (const size_t k : used)
-		rows.push_back({ std::string("distortion ") + names[k], WithSigma({ g.distortion[k], g.distortion_sigma[k] }, "", 5), "Brown–Conrady, about the lens axis, in units of w" });
+		rows.push_back({ std::string("distortion ") + DISTORTION_NAMES[k], WithSigma({ g.distortion[k], g.distortion_sigma[k] }, "", 5), "Brown–Conrady, about the lens axis, in units of w" });
 	if (used.empty())
 		rows.push_back({ "distortion", "none", s.model == Model::PAPER ? "the paper's model has none" : "k1 would not lower the misfit enough to be believed" });
 	rows.push_back({ "reprojection", Number(g.rms, 3) + " px", "RMS" + (used.empty() ? std::string() : "; " + Number(c.pinhole.rms, 3) + " px without distortion") });

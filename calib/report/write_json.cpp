@@ -2,6 +2,7 @@
 
 #include "report/write_json.h"
 
+#include "model/names.h"
 #include "lens/angles.h"
 #include "model/projection.h"
 #include <tiltcal/calibrate.h>
@@ -123,11 +124,10 @@ Json SolutionJson(const Calibration& c, const Solution& solution, const Geometry
 	Put(json, "focus_distance", "_mm", solution.focus_distance);
 	Put(json, "aperture_diameter", "_mm", { camera.aperture_diameter_mm, camera.sigma.aperture_diameter_mm });
 	PutPrincipalPoint(json, camera);
-	const char* const names[] = { "k1", "k2", "p1", "p2", "k3" };
 	for (size_t k = 0; k < 5; ++k)
 	{
-		json["distortion"][names[k]] = camera.distortion[k];
-		json["distortion"][std::string(names[k]) + "_sigma"] = camera.sigma.distortion[k];
+		json["distortion"][DISTORTION_NAMES[k]] = camera.distortion[k];
+		json["distortion"][std::string(DISTORTION_NAMES[k]) + "_sigma"] = camera.sigma.distortion[k];
 	}
 	json["distortion_terms"] = g.distortion_terms;
 	json["distortion_axis"] = "lens axis";

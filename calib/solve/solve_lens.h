@@ -2,8 +2,8 @@
 //
 // From measured blur widths to the lens: the models of the same photographs.
 
-#ifndef TILTCAL_SOLVE_BLUR_H
-#define TILTCAL_SOLVE_BLUR_H
+#ifndef TILTCAL_SOLVE_LENS_H
+#define TILTCAL_SOLVE_LENS_H
 
 #include <tiltcal/calibration.h>
 

@@ -1,5 +1,5 @@
 # The installed library from outside: a program that knows nothing of this tree finds it with find_package, calibrates the demo's
-# photographs and prints what tiltcal's calibration.json has; on stderr nothing, and no name of an option.
+# photographs and prints what tiltcal's calibration.json has; on stderr nothing, and in what is thrown no name of an option.
 #
 #   cmake -DBUILD= -DSOURCE= -DPHOTOS= -DCALIBRATION= -DWORK= -P outside.cmake
 cmake_minimum_required(VERSION 3.25)
@@ -42,13 +42,45 @@ foreach(words "camera {" "tilt_lens {" "lens_tilt 5.0" "aperture_diameter 15.9" 
 	endif()
 endforeach()
 
-# Private things stay private.
-execute_process(COMMAND nm -DC --defined-only "${prefix}/lib/libtiltcal.so" OUTPUT_VARIABLE symbols RESULT_VARIABLE failed)
-if(failed)
-	file(GLOB_RECURSE library "${prefix}/libtiltcal.so")
-	execute_process(COMMAND nm -DC --defined-only ${library} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
+# The blur of (300, 200) at 700 mm in the untilted state, by the formula: w d |1/z - 1/U - C tan^2|, w in px. 2 %: the distortion turns
+# the direction by k1 r^2 = 0.8 % of r, which is twice that of tan^2, a fifth of the whole.
+foreach(key image_distance_mm aperture_diameter_mm focus_distance_mm field_curvature_per_mm)
+	string(JSON ${key} GET "${json}" ${key})
+endforeach()
+string(JSON u GET "${json}" principal_point_px 0)
+string(JSON v GET "${json}" principal_point_px 1)
+string(REGEX MATCH "untilted sees [^\n]*, blurred by ([0-9.]+) px" line "${out}")
+execute_process(COMMAND awk "BEGIN { w = ${image_distance_mm} / 0.02; t2 = ((300 - ${u})^2 + (200 - ${v})^2) / w^2
+	b = w * ${aperture_diameter_mm} * (1 / 700 - 1 / ${focus_distance_mm} - ${field_curvature_per_mm} * t2); b = b < 0 ? -b : b
+	print b; d = ${CMAKE_MATCH_1} / b - 1; exit !(d < 0.02 && d > -0.02) }" OUTPUT_VARIABLE expected RESULT_VARIABLE differs)
+if(differs)
+	message(FATAL_ERROR "the blur is ${CMAKE_MATCH_1} px, by the formula ${expected}")
 endif()
-if(NOT symbols MATCHES "tiltcal::Calibrate\\(" OR symbols MATCHES "tiltcal::SolveGeometry|tiltcal::FitEdge|tiltcal::JointFit")
-	message(FATAL_ERROR "libtiltcal.so shows the wrong symbols")
+
+# What goes wrong is an Error, in words without a command line's.
+execute_process(COMMAND "${WORK}/build/tilts" nowhere OUTPUT_VARIABLE nothing ERROR_VARIABLE errors RESULT_VARIABLE code)
+if(NOT code EQUAL 3 OR NOT errors MATCHES "nowhere/untilted-1.jpg" OR errors MATCHES "--" OR NOT nothing STREQUAL "")
+	message(FATAL_ERROR "of a missing photograph: exit ${code}, said: ${errors}${nothing}")
+endif()
+
+# Private things stay private: what is shown is in include/tiltcal.
+file(GLOB_RECURSE library "${prefix}/libtiltcal.so")
+execute_process(COMMAND nm -DC --defined-only ${library} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX MATCHALL " T tiltcal::[A-Za-z:]+" shown "${symbols}")
+list(REMOVE_DUPLICATES shown)
+file(GLOB headers "${prefix}/include/tilt-lens/tiltcal/*.h")
+set(text "")
+foreach(header IN LISTS headers)
+	file(READ "${header}" part)
+	string(APPEND text "${part}")
+endforeach()
+foreach(symbol IN LISTS shown)
+	string(REGEX REPLACE "^.*::" "" name "${symbol}")
+	if(NOT text MATCHES "[^A-Za-z]${name}\\(")
+		message(FATAL_ERROR "libtiltcal.so shows${symbol}, which no public header declares")
+	endif()
+endforeach()
+if(NOT shown MATCHES "tiltcal::Calibrate(;|$)")
+	message(FATAL_ERROR "libtiltcal.so does not show tiltcal::Calibrate")
 endif()
 file(REMOVE_RECURSE "${WORK}")

@@ -89,8 +89,12 @@ Page ReadPage(const std::string& html)
 		page.complaint = "not a DOCTYPE and one html element";
 	else
 		page.complaint = Complaint(written.child("html"));
-	if (page.complaint.empty() && resolved.load_buffer(html.data(), html.size(), RESOLVED, pugi::encoding_utf8))
+	if (!page.complaint.empty())
+		return page;
+	if (resolved.load_buffer(html.data(), html.size(), RESOLVED, pugi::encoding_utf8))
 		Collect(resolved.child("html"), page);
+	else
+		page.complaint = "entities that cannot be resolved";
 	return page;
 }
 

@@ -19,11 +19,11 @@ enum class TargetKind
 	ASYMMETRIC_CIRCLES    ///< every other row moved by half a column, as in OpenCV
 };
 
-/// "checkerboard", "circles", "asymmetric-circles". `option` is named in the UsageError.
-TILTCAL_API TargetKind ParseTargetKind(const std::string& text, const std::string& option);
+/// "checkerboard", "circles", "asymmetric-circles". Throws UsageError, which calls it `input`.
+TILTCAL_API TargetKind ParseTargetKind(const std::string& text, const std::string& input = "`target`");
 TILTCAL_API std::string NameOf(TargetKind kind);
 
-/// Counts squares or circles, as the command line does: 12 x 9 squares have 11 x 8 inner corners.
+/// Counts squares or circles: 12 x 9 squares have 11 x 8 inner corners.
 /// Features are inner corners, or centres of circles. Their (column, row) is their place in units of `square_mm`:
 /// circle i of row j of an asymmetric grid is at column 2 i + j mod 2.
 /// Board frame (left-handed, as POV-Ray's): origin at the first feature, x along
@@ -58,8 +58,8 @@ TILTCAL_API std::string Describe(const Board& board);
 TILTCAL_API Board ParseBoard(const std::string& text, double square_mm);
 
 /// Any target. A circle_diameter of 0 becomes half the distance of neighbouring centres; checkerboards have none.
-/// `kind_option` is named in the UsageError.
-TILTCAL_API Board MakeBoard(TargetKind kind, const std::string& text, double square_mm, double circle_diameter_mm, const std::string& kind_option);
+/// Throws UsageError, which calls the kind `kind_input`.
+TILTCAL_API Board MakeBoard(TargetKind kind, const std::string& text, double square_mm, double circle_diameter_mm, const std::string& kind_input = "`target`");
 
 }
 

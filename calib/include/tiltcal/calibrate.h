@@ -33,9 +33,9 @@ struct MeasureOptions
 	/// Accept a board that appears turned by more than 90 degrees from its upright position. Off by default: a
 	/// checkerboard's colours cannot tell a mirrored picture from a board upside down.
 	bool any_orientation = false;
-	/// 0: all edges; otherwise so many of every photograph, spread over the board (measure/spread_order.h): faster, less accurate.
+	/// 0: all edges; otherwise so many of every photograph, spread over the board: faster, less accurate.
 	int edges_per_photo = 0;
-	double edge_phase = 0;   ///< 0 to 1: which ones, of measure/spread_order.h
+	double edge_phase = 0;   ///< 0 to 1: which ones
 	Log log{};
 };
 
@@ -81,7 +81,7 @@ struct EffectChoice
 
 struct CalibrateOptions
 {
-	/// None: curved where it predicts photographs left out better (CurvatureIsSeen), else plane.
+	/// None: curved where it predicts photographs left out better, else plane.
 	std::optional<Model> model;
 	Poses poses = Poses::AUTO;
 	Refinement refinement = Refinement::EDGES;

@@ -31,7 +31,7 @@ struct StateGeometry
 {
 	Vec3<double> lens_normal{ 0, 0, 1 };           ///< the axis of the distortion, given
 	/// Where the lens centre stands, seen from the untilted state's, camera frame, mm: a real lens turns about a pivot
-	/// away from its pupil. Free where poses are shared (solve/joint_fit.h), else 0. `poses` hold it already.
+	/// away from its pupil. Free where poses are shared, else 0. `poses` hold it already.
 	Vec3<double> lens_centre{ 0, 0, 0 }, lens_centre_sigma{ 0, 0, 0 };
 	bool principal_point_fixed = false;            ///< not determined, and kept at the picture's centre
 	Point principal_point{}, principal_point_sigma{};   ///< px
@@ -77,7 +77,7 @@ struct LeftOut
 	double rms_blur = 0;      ///< of the photograph that was left out, px
 };
 
-/// What the lens is taken for (model/names.cpp has their words).
+/// What the lens is taken for.
 enum class Model
 {
 	PAPER,    ///< Baba, Nakane, Hiura (3), (4), (1), as printed
@@ -89,7 +89,7 @@ enum class Model
 /// "paper", "rigid", "plane", "curved".
 TILTCAL_API const char* NameOf(Model model);
 
-/// Which numbers give a state's surface of focus (model/lens_model.h).
+/// Which numbers give a state's surface of focus.
 enum class LensModel
 {
 	PLANE,   ///< q itself, free in every tilted state
@@ -108,9 +108,9 @@ struct Solution
 	double rms_blur = 0;
 	Estimate field_curvature;             ///< C, 1/mm; the mean of the two below
 	Estimate tangential_curvature, sagittal_curvature;
-	double held_out_px = 0;  ///< solve/held_out.h; 0 when it was not asked for or cannot be had
+	double held_out_px = 0;  ///< of blur left out; 0 when it was not asked for or cannot be had
 	std::vector<Correlation> correlations;   ///< of every pair of w, d, U and C, and of each with the tilts
-	std::vector<LeftOut> left_out;   ///< solve/held_out.h: each photograph in turn
+	std::vector<LeftOut> left_out;   ///< each photograph in turn
 	std::string failure;     ///< why there is no answer; empty when there is one
 };
 
@@ -122,7 +122,7 @@ struct ModelComparison
 	std::array<const Solution*, 3> All() const { return { &rigid, &plane, &curved }; }
 };
 
-/// What the places of edges say of the tilts (solve/solve_joint.h); no states: nothing.
+/// What the places of edges say of the tilts; no states: nothing.
 struct GeometryAlone
 {
 	std::vector<StateLens> states;
@@ -150,7 +150,7 @@ struct RimEstimate
 	Estimate radius_mm, distance_mm;
 };
 
-/// Whether there are two rims (effects/second_rim.h).
+/// Whether there are two rims.
 struct SecondRim
 {
 	bool used = false;
@@ -159,7 +159,7 @@ struct SecondRim
 	double held_out_without = 0, held_out_with = 0;   ///< RMS of brightness and places of edges left out, in sigmas; 0: not known
 };
 
-/// What a fit with some of the two kinds of vignetting finds (effects/vignetting.h).
+/// What a fit with some of the two kinds of vignetting finds.
 struct FalloffAnswer
 {
 	bool fitted = false;
@@ -185,12 +185,12 @@ struct Vignetting
 	std::array<FalloffAnswer, 4> answers;   ///< by FalloffKind
 };
 
-/// What the colours of edges tell of chromatic aberration (effects/chromatic_fit.h): index 0 red, 1 blue, each against green.
+/// What the colours of edges tell of chromatic aberration: index 0 red, 1 blue, each against green.
 struct Chromatic
 {
 	std::string failure;      ///< why nothing can be said; empty when something can
 	int edges = 0;
-	std::array<Estimate, 2> lateral;         ///< C_R, C_B of lens/chromatic.h
+	std::array<Estimate, 2> lateral;         ///< C_R, C_B of tilt_lens's `chromatic lateral`
 	std::array<Estimate, 2> axial_per_mm;    ///< A_R, A_B
 	double lateral_held_out_without = 0, lateral_held_out_with = 0;   ///< of an edge's shift, px; 0: there is nothing to leave out
 	double axial_held_out_without = 0, axial_held_out_with = 0;       ///< of an edge's difference in blur width, px

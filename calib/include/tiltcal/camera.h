@@ -39,7 +39,7 @@ struct StateCamera
 	double pitch_mm = 0, image_distance_mm = 0;
 	Point principal_point{};
 	Distortion distortion{};           ///< about the lens axis
-	/// As reported: folded into (-90, 90], the tilt carries the sign (model/tilt_angles.h).
+	/// As reported: folded into (-90, 90], the tilt carries the sign.
 	double lens_tilt_deg = 0, tilt_direction_deg = 0;
 	double focus_distance_mm = 0;      ///< U on the axis; infinite where it is that, or unknown
 	double aperture_diameter_mm = 0;   ///< d; 0 where it is unknown
@@ -65,17 +65,24 @@ struct StateCamera
 /// Which of a calibration's two cameras: as the lens is, or the best one without distortion.
 enum class Distorted { YES, NO };
 
-/// The camera of a state, with the effects that the calibration chose.
+/// The camera of a state, with the effects that the calibration chose. Throws UsageError where there is no such state.
 TILTCAL_API StateCamera CameraOfState(const Calibration& calibration, size_t state, Distorted distorted = Distorted::YES);
 
-/// Pixel where the camera sees P (camera frame, mm). None: P is not in front of the lens plane, or not before the sensor.
+/// The camera of one state of calibration.json; `state` empty: the first, which is the untilted one. Throws FileError:
+/// unreadable, not JSON, a key missing or of the wrong kind (file and key are named); UsageError: no such state (those there are
+/// listed).
+TILTCAL_API StateCamera ReadStateCamera(const std::string& file, const std::string& state);
+
+/// Pixel where the camera sees P (camera frame, mm). None: P is not in front of the lens plane, or its z is not above 0.
 TILTCAL_API std::optional<Point> Project(const StateCamera& camera, const Vec3<double>& P);
 
-/// Direction (z = 1 before the distortion is taken off; camera frame) of what the pixel sees through the lens centre.
+/// Direction of what the pixel sees through the lens centre, camera frame. Its length means nothing: (u, v, 1) of the pixel with the
+/// distortion taken off.
 TILTCAL_API Vec3<double> Unproject(const StateCamera& camera, const Point& pixel);
 
 /// Diameter of the blur disc of a point on the sensor, px, to first order: w d |1/z - kappa|, kappa the inverse focus distance
-/// on the bowl (the paper's (2) with its plane of focus taken along the ray). Without the lens's own blur. z > 0.
+/// on the bowl (the paper's (2) with its plane of focus taken along the ray). Without the lens's own blur; with blades, that of the circle
+/// through their corners. z > 0.
 TILTCAL_API double BlurWidth(const StateCamera& camera, const Vec3<double>& P);
 
 /// Where a camera stands in a scene: scene units, unit vectors at right angles, left-handed.

@@ -23,7 +23,7 @@ struct PhotographFacts
 	std::optional<double> pitch_mm;          ///< from FocalPlaneXResolution; only when it holds for these pixels
 	int orientation = 1;                     ///< 1 to 8; 1: as the sensor had it
 	std::string make, model, lens;
-	bool subsampled_colour = false;          ///< a JPEG that stores colour at less than full size; not from EXIF, ReadLinear fills it in
+	bool subsampled_colour = false;          ///< a JPEG that stores colour at less than full size; not from EXIF
 
 	TILTCAL_API bool Empty() const;
 };
@@ -36,7 +36,7 @@ struct Corner
 	double sigma = 0;   ///< standard deviation of x and of y
 };
 
-/// Brightness of an edge in a narrow strip along it (edge/binned_profile.h).
+/// Brightness of an edge in a narrow strip along it.
 struct ProfileBin
 {
 	float x = 0;       ///< distance from the edge, px, dark side negative
@@ -99,10 +99,10 @@ struct Photo
 	bool bright_circles = false; ///< white on dark
 	int edges_dropped = 0;       ///< blurred beyond measuring, or not fitted
 	double saturated_share = 0;  ///< edges whose bright side is clipped
-	std::vector<BrightPatch> white;   ///< of the board (measure/bright_patches.h)
+	std::vector<BrightPatch> white;   ///< of the board
 	int white_saturated = 0;     ///< patches left out because they are clipped
 	bool coloured = false;       ///< the channels differ
-	std::vector<ColourEdge> colours;   ///< of some edges (measure/measure_colours.h)
+	std::vector<ColourEdge> colours;   ///< of some edges
 };
 
 /// Edge::BlurRatio of the edges of a photograph; all 0 when it has none.

@@ -23,7 +23,7 @@ struct State
 	std::vector<Photo> photos;
 };
 
-/// A photograph of an evenly lit plain surface (measure/bright_patches.h).
+/// A photograph of an evenly lit plain surface.
 struct FlatField
 {
 	size_t state = 0;
@@ -31,7 +31,7 @@ struct FlatField
 	std::vector<BrightPatch> patches;
 };
 
-/// The opening's blades (lens/blades.h).
+/// The opening's blades.
 struct FixedBlades
 {
 	int count = 0;                 ///< 0: not known

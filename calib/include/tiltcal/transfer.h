@@ -21,7 +21,7 @@ struct Transfer
 /// "srgb", "linear" or a gamma between 0.1 and 10. Throws UsageError.
 TILTCAL_API Transfer ParseTransfer(const std::string& text);
 
-/// The name as it is given on the command line.
+/// "srgb", "linear" or the gamma: what ParseTransfer reads.
 TILTCAL_API std::string TransferName(const Transfer& transfer);
 
 /// Linear light of a coded value (0..1, not clipped).
