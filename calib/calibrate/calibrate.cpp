@@ -13,6 +13,7 @@
 #include "picture/image_io.h"
 #include "measure/measure.h"
 #include "base/robust.h"
+#include "solve/edge_bias.h"
 #include "solve/solve_lens.h"
 #include "solve/solve_geometry.h"
 #include "solve/solve_joint.h"
@@ -133,8 +134,9 @@ bool PosesAreShared(const Task& task, const std::vector<Vec3<double>>& normals, 
 
 /// The exact model. The distortion turns with the lens, so lens and geometry are solved
 /// in turn: the lens moves the distortion's axis, the geometry hardly moves the lens.
-void SolveExact(const Task& task, const std::optional<Model>& model, const CalibrateOptions& o, Calibration& c)
+void SolveExact(const Task& measured, const std::optional<Model>& model, const CalibrateOptions& o, Calibration& c)
 {
+	Task& task = c.task;
 	auto solve = model == Model::RIGID ? SolveRigid : model == Model::CURVED ? SolveCurved : SolvePlane;
 	o.log.Info(fmt::format("solving geometry and lens ({})", NameOf(model.value_or(Model::PLANE))));
 	GeometryOptions options;
@@ -145,6 +147,7 @@ void SolveExact(const Task& task, const std::optional<Model>& model, const Calib
 	options.shared_poses = PosesAreShared(task, options.lens_normal, o);
 	for (int round = 0; round < 2; ++round)
 	{
+		task = WithoutEdgeBias(measured, c.geometry, c.solution);
 		c.geometry = SelectGeometry(task, options);
 		c.solution = solve(task, c.geometry);
 		options.lens_normal = LensNormals(c.solution);
@@ -271,18 +274,19 @@ void AddFlatField(Task& task, size_t state, const std::string& file, const Measu
 	o.log.Info(fmt::format("{}: flat field of state {}, {} cells", file, task.states[state].name, task.flat_fields.back().patches.size()));
 }
 
-Calibration Calibrate(const Task& task, const CalibrateOptions& o)
+Calibration Calibrate(const Task& measured, const CalibrateOptions& o)
 {
 	const QuietLibraries quiet;
-	CheckTask(task);
+	CheckTask(measured);
 	const Log& log = o.log;
 	Calibration c;
-	c.task = task;
+	c.task = measured;
+	const Task& task = c.task;
 	const std::optional<Model> model = ModelFor(o);
 	if (model != Model::PAPER)
 	{
-		SolveExact(task, model, o, c);
-		Refine(task, o, c);
+		SolveExact(measured, model, o, c);
+		Refine(c.task, o, c);
 	}
 	else
 		c.geometry = c.pinhole = SolveGeometry(task, {});

@@ -13,6 +13,8 @@
 #ifndef TILTCAL_DISC_EDGE_H
 #define TILTCAL_DISC_EDGE_H
 
+#include "edge/soft_radius.h"
+
 namespace tiltcal
 {
 
@@ -29,6 +31,26 @@ struct EdgeResponse
 /// ESF of the disc convolved with boxes of widths `box_a`, `box_b` >= 0 (pixels), at
 /// signed distance x from the edge. Domain: radius >= 0, box_a + box_b > 0.
 EdgeResponse PixelEdgeResponse(double x, double radius, double box_a, double box_b);
+
+/// The same with the soft radius u (soft_radius.h), `at(radius)` being what it is with a radius of 0 or more; d_radius becomes the derivative by u.
+template<typename At>
+inline EdgeResponse SoftResponse(double u, const At& at)
+{
+	const double linear_below = 0.01;   // of v, px^2
+	const double v = SquareOfSoft(u), by_u = SquareBySoft(u);
+	if (v >= linear_below)
+	{
+		const double radius = std::sqrt(v);
+		EdgeResponse e = at(radius);
+		e.d_radius *= by_u / (2 * radius);
+		return e;
+	}
+	// A small blur changes an edge in proportion to v; that is carried on to negative ones.
+	const EdgeResponse sharp = at(0.0), small = at(std::sqrt(linear_below));
+	const double share = v / linear_below;
+	return { sharp.value + share * (small.value - sharp.value), sharp.d_position + share * (small.d_position - sharp.d_position),
+		(small.value - sharp.value) / linear_below * by_u };
+}
 
 }
 

@@ -3,6 +3,7 @@
 #include "edge/edge_fit.h"
 
 #include "base/robust.h"
+#include "edge/soft_radius.h"
 
 #include <Eigen/Dense>
 
@@ -19,12 +20,12 @@ enum { LOW, HIGH, SHADE_X, SHADE_S, OFFSET, SLOPE, RADIUS, PARAMETERS };
 using Vector = Eigen::Matrix<double, PARAMETERS, 1>;
 using Matrix = Eigen::Matrix<double, PARAMETERS, PARAMETERS>;
 
-const double MIN_RADIUS = 0.05;
+const double LEAST_SOFT = -2;   // of a soft radius (soft_radius.h): steeper than any sharpening makes an edge
 const double HUBER = 2.5;   // in standard deviations: JPEG blocks and specks, not the shape
 
 double Predict(const Vector& p, const EdgeSample& sample, const EdgeProfile& profile, Vector* gradient)
 {
-	const EdgeResponse e = profile.At(sample, p[OFFSET], p[SLOPE], p[RADIUS]);
+	const EdgeResponse e = SoftResponse(p[RADIUS], [&](double radius) { return profile.At(sample, p[OFFSET], p[SLOPE], radius); });
 	const double shade = 1 + p[SHADE_X] * sample.x + p[SHADE_S] * sample.s;
 	const double step = p[HIGH] - p[LOW];
 	const double flat = p[LOW] + step * e.value;
@@ -94,7 +95,7 @@ bool Descend(Vector& p, const std::vector<EdgeSample>& samples, const EdgeProfil
 		if (!step.allFinite())
 			return false;
 		Vector q = p + step;
-		q[RADIUS] = std::max(std::abs(q[RADIUS]), MIN_RADIUS);
+		q[RADIUS] = std::max(q[RADIUS], LEAST_SOFT);
 		// Steps are nearly always good, so the derivatives are computed with the cost.
 		const Normal next = Assemble(q, samples, profile, scale);
 		if (next.cost <= n.cost)
@@ -128,7 +129,7 @@ Vector Start(const std::vector<EdgeSample>& samples, double start_radius)
 			bright.push_back(sample.value);
 	}
 	Vector p = Vector::Zero();
-	p[RADIUS] = std::max(start_radius, 2 * MIN_RADIUS);
+	p[RADIUS] = SoftOfSquare(std::max(start_radius * start_radius, 0.01));
 	if (dark.size() < 8 || bright.size() < 8)
 		return p;
 	p[LOW] = Median(std::move(dark));
@@ -174,7 +175,7 @@ EdgeFit FitEdge(const std::vector<EdgeSample>& samples, const EdgeProfile& profi
 	fit.shade_s = p[SHADE_S];
 	fit.offset = p[OFFSET];
 	fit.slope = p[SLOPE];
-	fit.radius = p[RADIUS];
+	fit.radius = SignedRoot(SquareOfSoft(p[RADIUS]));
 	const auto sigma = [&](int k) { return std::sqrt(std::max(covariance(k, k), 0.0)); };
 	fit.offset_sigma = sigma(OFFSET);
 	fit.slope_sigma = sigma(SLOPE);
@@ -187,7 +188,7 @@ EdgeFit FitEdge(const std::vector<EdgeSample>& samples, const EdgeProfile& profi
 EdgeChange FirstOrderChange(const std::vector<EdgeSample>& samples, const EdgeProfile& profile, const EdgeProfile& other, const EdgeFit& fit)
 {
 	Vector p, g;
-	p << fit.low, fit.high, fit.shade_x, fit.shade_s, fit.offset, fit.slope, fit.radius;
+	p << fit.low, fit.high, fit.shade_x, fit.shade_s, fit.offset, fit.slope, SoftOfSquare(SignedSquare(fit.radius));
 	Matrix JtJ = Matrix::Zero();
 	Vector Jtr = Vector::Zero();
 	for (const EdgeSample& sample : samples)

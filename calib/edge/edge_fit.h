@@ -26,8 +26,9 @@ struct EdgeFit
 	double low = 0, high = 0;           ///< plateaus at the edge's middle, linear light
 	double shade_x = 0, shade_s = 0;    ///< relative change of brightness per pixel (vignetting)
 	double offset = 0, slope = 0;       ///< the edge lies at x = offset + slope s
-	double radius = 0;                  ///< of the blur disc
-	double offset_sigma = 0, slope_sigma = 0, radius_sigma = 0;
+	double radius = 0;                  ///< of the blur disc; negative: its square is (soft_radius.h)
+	double offset_sigma = 0, slope_sigma = 0;
+	double radius_sigma = 0;            ///< of the soft radius: of the radius itself where it is large
 	double rms = 0;                     ///< residual, linear light
 };
 
@@ -52,12 +53,12 @@ private:
 };
 
 /// Model: value = (1 + shade_x x + shade_s s) (low + (high - low) E), E from `profile`. Levenberg-Marquardt with
-/// Huber weights; sigmas from the covariance rescaled by the residuals. Radii below
-/// about 0.3 px are not told from 0: the pixel hides them, and their sigma says so.
+/// Huber weights; sigmas from the covariance rescaled by the residuals. A radius below
+/// about 0.3 px is not told from 0, and its square may come out negative.
 /// `start_radius` in pixels. Not valid: fewer than 40 samples, no contrast, no convergence.
 EdgeFit FitEdge(const std::vector<EdgeSample>& samples, const EdgeProfile& profile, double start_radius);
 
-/// A change of a fit.
+/// A change of a fit; of the soft radius.
 struct EdgeChange
 {
 	double offset = 0, slope = 0, radius = 0;

@@ -5,6 +5,7 @@
 #include "model/predict.h"
 #include <tiltcal/calibrate.h>
 #include "model/footprint.h"
+#include "edge/soft_radius.h"
 #include "base/robust.h"
 #include "solve/solve_geometry.h"
 
@@ -119,16 +120,16 @@ double LateralSlope(const Calibration& c, size_t s, const Edge& e)
 	return (place(step) - place(-step)) / (2 * step);
 }
 
-/// Change of an edge's blur width, px, per unit of axial aberration, 1/mm.
+/// Change of an edge's soft blur width (edge/soft_radius.h), px, per unit of axial aberration, 1/mm.
 double AxialSlope(const Calibration& c, size_t s, size_t p, const Edge& e)
 {
 	const Geometry& g = c.MainGeometry();
 	const Vec3<double> P = EdgeInCamera(c.task, g.states[s].poses[p], e), G = EdgeGradient(g, s, P, e), &n = g.states[s].lens_normal;
 	const double curvature[2] = { c.solution.field_curvature.value, 0.5 * (c.solution.tangential_curvature.value - c.solution.sagittal_curvature.value) };
-	const double floor = c.solution.psf_floor_px.value, step = 1e-7;
+	const double floor_squared = c.solution.psf_floor_squared.value, step = 1e-7;
 	const auto width = [&](double axial)
 	{
-		return std::sqrt(SquaredFootprintWidth(c.solution.aperture_diameter.value, c.solution.states[s].q + axial * n, n, curvature, P, G) + floor * floor);
+		return SoftDiameterOfSquare(SquaredFootprintWidth(c.solution.aperture_diameter.value, c.solution.states[s].q + axial * n, n, curvature, P, G) + floor_squared);
 	};
 	return (width(step) - width(-step)) / (2 * step);
 }

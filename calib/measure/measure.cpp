@@ -9,6 +9,7 @@
 #include "measure/measure_circles.h"
 #include "measure/measure_colours.h"
 #include "measure/measure_edge.h"
+#include "measure/refine_corners.h"
 #include "base/robust.h"
 #include "measure/spread_order.h"
 
@@ -71,7 +72,7 @@ EdgeOutcome MeasureReduced(const Reduced& r, const EdgePlace& place, double star
 	const EdgeOutcome outcome = MeasureBlurredEdge(r.grey, r.grid, place, start_radius / r.factor, growth, last, edge);
 	edge.x = (edge.x + 0.5) * r.factor - 0.5;
 	edge.y = (edge.y + 0.5) * r.factor - 0.5;
-	for (double* length : { &edge.blur, &edge.blur_sigma, &edge.offset_sigma, &edge.square_px })
+	for (double* length : { &edge.blur, &edge.blur_sigma, &edge.offset_sigma, &edge.square_px, &edge.reach, &edge.span })
 		*length *= r.factor;
 	return outcome;
 }
@@ -117,38 +118,6 @@ Vec2 Growth(const std::vector<Measured>& all, const Measured& m)
 	const Vec2 growth = A.ldlt().solve(b).tail<2>();
 	// The radius cannot change faster than this in front of a lens; a fit that says so has failed.
 	return growth.allFinite() && growth.norm() < 0.2 ? growth : Vec2(Vec2::Zero());
-}
-
-/// A corner as the intersection of the lines of its edges (the paper's features), least
-/// squares with the edges' own uncertainties. False: not both directions are there.
-bool Intersect(const std::vector<Edge>& edges, Corner& corner)
-{
-	Eigen::Matrix2d A = Eigen::Matrix2d::Zero();
-	Vec2 b = Vec2::Zero();
-	bool columns = false, rows = false;
-	for (const Edge& e : edges)
-	{
-		if (!e.Touches(corner.column, corner.row))
-			continue;
-		const Vec2 nominal(e.nx, e.ny), along(e.ny, -e.nx);
-		const double side = along.dot(Vec2(corner.x - e.x, corner.y - e.y));
-		const Vec2 normal = (nominal - e.slope * along).normalized();
-		const double variance = e.offset_sigma * e.offset_sigma + side * side * e.slope_sigma * e.slope_sigma;
-		// Edges fitted with their neighbours use the same pixels twice: once in each direction.
-		const double shared = e.BlurRatio() > LONE_RATIO ? 2 : 1;
-		const double weight = 1 / std::max(shared * variance, 1e-8);
-		A += weight * normal * normal.transpose();
-		b += weight * normal * normal.dot(Vec2(e.x, e.y));
-		(e.along_columns ? columns : rows) = true;
-	}
-	if (!columns || !rows)
-		return false;
-	const Eigen::Matrix2d covariance = A.inverse();
-	const Vec2 p = covariance * b;
-	corner.x = p.x();
-	corner.y = p.y();
-	corner.sigma = std::sqrt(0.5 * covariance.trace());
-	return true;
 }
 
 /// Whether the bright side is the one that the board's first square would have were it black. Past a blur radius of 0.86
@@ -198,17 +167,6 @@ void Repeat(const cv::Mat& grey, const Board& board, Photo& photo, bool last, st
 		if (before[k].with_neighbours && before[k].outcome == EdgeOutcome::MEASURED)
 			all[k].outcome = MeasureReduced(reduced, all[k].place, 0.5 * before[k].edge.blur, Growth(before, before[k]), last, all[k].edge);
 	});
-}
-
-/// Corners that no edges refine keep what the detector found, less sure the more the picture is blurred.
-void RefineCorners(Photo& photo)
-{
-	double blur = 0;
-	for (const Edge& e : photo.edges)
-		blur += e.blur / double(photo.edges.size());
-	for (Corner& corner : photo.corners)
-		if (!Intersect(photo.edges, corner))
-			corner.sigma = std::hypot(0.05, 0.03 * blur);
 }
 
 /// Too few edges are left to say anything: says which blur was seen.

@@ -163,10 +163,10 @@ EdgeOutcome CircleView::Measure(int index, int arcs, double start_blur, bool rou
 		fit = FitEdge(thinned, arc.Profile(outline, bright, blur), start_blur > 0 || round > 0 ? blur : 0.5 * blur);
 		if (!fit.valid)
 			return EdgeOutcome::FAILED;
-		settled = std::abs(fit.radius - blur) < 0.05 * blur + 0.1;
-		blur = fit.radius;
+		settled = std::abs(std::max(fit.radius, 0.0) - blur) < 0.05 * blur + 0.1;
+		blur = std::max(fit.radius, 0.0);
 	}
-	edge.blur = 2 * blur;
+	edge.blur = 2 * fit.radius;
 	if (blur > MOST_CIRCLE_RATIO * smaller_radius)
 		return EdgeOutcome::TOO_BLURRED;
 	if (!settled || std::abs(fit.offset) > 0.25 * smaller_radius || std::abs(fit.slope) > 0.25 || fit.radius_sigma > 0.25 * fit.radius + 0.5)

@@ -4,6 +4,7 @@
 
 #include <tiltcal/photo.h>
 #include "model/footprint.h"
+#include "edge/soft_radius.h"
 #include "measure/measure_edge.h"
 
 #include <algorithm>
@@ -56,7 +57,7 @@ bool Measure(const std::vector<cv::Mat>& channels, const CornerGrid& grid, const
 		const Edge& colour = fits[k == 0 ? 2 : 0];
 		out.shift[k] = (colour.x - out.green.x) * normal[0] + (colour.y - out.green.y) * normal[1];
 		out.shift_sigma[k] = std::hypot(colour.offset_sigma, out.green.offset_sigma);
-		out.widening[k] = colour.blur - out.green.blur;
+		out.widening[k] = SoftDiameter(colour.blur) - SoftDiameter(out.green.blur);
 		out.widening_sigma[k] = std::hypot(colour.blur_sigma, out.green.blur_sigma);
 	}
 	return true;

@@ -160,6 +160,7 @@ void Fill(const EdgeFit& fit, const std::vector<EdgeSample>& samples, const Axes
 	edge.along_columns = place.along_columns;
 	edge.board_column = place.along_columns ? square.x() : place.column;
 	edge.board_row = place.along_columns ? place.row : square.y();
+	edge.reach = edge.span = 0;
 	edge.x = where.x();
 	edge.y = where.y();
 	edge.nx = axes.normal.x();
@@ -172,6 +173,11 @@ void Fill(const EdgeFit& fit, const std::vector<EdgeSample>& samples, const Axes
 	edge.low = fit.low;
 	edge.high = fit.high;
 	edge.square_px = axes.Side();
+	for (const EdgeSample& sample : samples)
+	{
+		edge.reach = std::max(edge.reach, std::abs(sample.x));
+		edge.span = std::max(edge.span, std::abs(sample.s - s_mean));
+	}
 }
 
 /// The lines around an edge, in its own axes.
@@ -329,8 +335,8 @@ EdgeOutcome MeasureLoneEdge(const cv::Mat& grey, const CornerGrid& grid, const E
 		fit = FitEdge(samples, LoneEdge(axes.normal.x(), axes.normal.y()), round == 0 ? 0.5 * radius : radius);
 		if (!fit.valid)
 			return EdgeOutcome::FAILED;
-		settled = (!rough || round == 0) && std::abs(fit.radius - radius) < 0.05 * radius + 0.1;
-		radius = fit.radius;
+		settled = (!rough || round == 0) && std::abs(std::max(fit.radius, 0.0) - radius) < 0.05 * radius + 0.1;
+		radius = std::max(fit.radius, 0.0);
 	}
 	if (radius > LONE_RATIO * axes.Side() || axes.gap - radius - 1.5 < 1.1 * radius + 2)
 		return EdgeOutcome::TOO_BLURRED;
@@ -362,7 +368,7 @@ EdgeOutcome MeasureBlurredEdge(const cv::Mat& grey, const CornerGrid& grid, cons
 		if (!fit.valid)
 			return EdgeOutcome::FAILED;
 		settled = round > 0 && std::abs(fit.radius - radius) < 0.05 * radius + 0.1;
-		radius = fit.radius;
+		radius = std::max(fit.radius, 0.0);
 		edge.blur = 2 * radius;
 		if (radius > 0.9 * axes.Side())
 			return EdgeOutcome::TOO_BLURRED;

@@ -58,7 +58,7 @@ void DrawEdges(cv::Mat& canvas, const Calibration& c, size_t s, size_t p)
 	for (const Edge& e : c.task.states[s].photos[p].edges)
 	{
 		const double predicted = PredictedBlur(c, s, p, e);
-		cv::circle(canvas, Fixed(e.x, e.y), Length(e.blur / 2), DifferenceColour(e.blur - predicted), 2, cv::LINE_AA, SHIFT);
+		cv::circle(canvas, Fixed(e.x, e.y), Length(std::max(e.blur, 0.0) / 2), DifferenceColour(e.blur - predicted), 2, cv::LINE_AA, SHIFT);
 		cv::circle(canvas, Fixed(e.x, e.y), Length(predicted / 2), PREDICTED, 1, cv::LINE_AA, SHIFT);
 	}
 }
@@ -117,7 +117,7 @@ cv::Mat DrawMeasured(const cv::Mat& grey, const Photo& photo)
 	{
 		const double x = e.ny + e.slope * e.nx, y = -e.nx + e.slope * e.ny, half = 0.35 * e.square_px / std::hypot(x, y);
 		cv::line(canvas, Fixed(e.x - half * x, e.y - half * y), Fixed(e.x + half * x, e.y + half * y), EDGE, 1, cv::LINE_AA, SHIFT);
-		cv::circle(canvas, Fixed(e.x, e.y), Length(e.blur / 2), DifferenceColour(0), 1, cv::LINE_AA, SHIFT);
+		cv::circle(canvas, Fixed(e.x, e.y), Length(std::max(e.blur, 0.0) / 2), DifferenceColour(0), 1, cv::LINE_AA, SHIFT);
 	}
 	for (const Corner& k : photo.corners)
 		Cross(canvas, k);

@@ -6,6 +6,7 @@
 #include "model/projection.h"
 #include <tiltcal/error.h>
 #include "model/footprint.h"
+#include "edge/soft_radius.h"
 #include "solve/prior_cost.h"
 #include "base/robust.h"
 #include "solve/solve_geometry.h"
@@ -31,11 +32,10 @@ struct BlurCost
 	template<typename T>
 	bool operator()(const T* d, const T* floor_squared, const T* power, const T* curvature, const T* state, T* residual) const
 	{
-		using std::sqrt;
 		const Vec3<T> q = PlaneOfState(model, power, state, T(w_mm));
 		const Vec3<T> n = tilt_lens::LensFromPlane(q, T(1 / w_mm)).normal;
-		// The tiny constant keeps the root smooth where blur and floor both vanish.
-		residual[0] = weight * (sqrt(SquaredFootprintWidth(*d, q, n, curvature, Lifted<T>(o.P), Lifted<T>(o.gradient)) + *floor_squared + T(1e-6)) - o.blur);
+		const T squared = SquaredFootprintWidth(*d, q, n, curvature, Lifted<T>(o.P), Lifted<T>(o.gradient)) + *floor_squared;
+		residual[0] = weight * (SoftDiameterOfSquare(squared) - T(SoftDiameter(o.blur)));
 		return true;
 	}
 };
@@ -73,7 +73,6 @@ void Build(const BlurFit& fit, ceres::Problem& problem, Unknowns& x, Free free, 
 
 void HoldUnused(LensModel model, Unknowns& x, ceres::Problem& problem)
 {
-	problem.SetParameterLowerBound(&x.floor_squared, 0, 0);
 	for (size_t s = 0; s < x.state.size(); ++s)
 	{
 		double* const own = x.state[s].data();

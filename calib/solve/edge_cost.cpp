@@ -3,6 +3,7 @@
 #include "solve/edge_cost.h"
 
 #include "edge/disc_edge.h"
+#include "edge/edge_fit.h"
 
 #include <Eigen/Dense>
 #include <ceres/ceres.h>
@@ -19,7 +20,7 @@ namespace
 struct EdgeCost
 {
 	EdgeModel edge;
-	double blur;
+	double soft_blur;
 	EdgeWeights weights;
 
 	template<typename... Blocks>
@@ -29,7 +30,7 @@ struct EdgeCost
 		if (!edge(blocks...))
 			return false;
 		residual[0] *= weights.offset;
-		residual[1] = (residual[1] - blur) * weights.blur;
+		residual[1] = (residual[1] - soft_blur) * weights.blur;
 		return true;
 	}
 };
@@ -72,8 +73,8 @@ public:
 	}
 
 private:
-	/// Residuals of the bins for an edge at `place` with a disc of `radius`, and their derivatives by place and width.
-	void Bins(double place, double radius, double* residuals, Eigen::MatrixX2d* by) const
+	/// Residuals of the bins for an edge at `place` with a disc of the soft radius `soft`, and their derivatives by place and soft width.
+	void Bins(double place, double soft, double* residuals, Eigen::MatrixX2d* by) const
 	{
 		const long n = static_cast<long>(profile.size());
 		Eigen::MatrixX2d sides(n, 2), change(n, 2);
@@ -81,7 +82,7 @@ private:
 		for (long k = 0; k < n; ++k)
 		{
 			const ProfileBin& bin = profile[size_t(k)];
-			const EdgeResponse e = PixelEdgeResponse(bin.x - place, radius, box_a, box_b);
+			const EdgeResponse e = SoftResponse(soft, [&](double radius) { return PixelEdgeResponse(bin.x - place, radius, box_a, box_b); });
 			const double w = weight * std::sqrt(double(bin.count));
 			sides.row(k) << w * (1 - e.value), w * e.value;
 			change.row(k) << -w * e.d_position, 0.5 * w * e.d_radius;
@@ -109,9 +110,9 @@ EdgeModel MakeEdgeModel(const Task& task, LensModel model, const Edge& e, const 
 	return { model, task.board.X(e.board_column), task.board.Y(e.board_row), e.x, e.y, normal[0], normal[1], task.pitch_mm, axis, axis_is_free };
 }
 
-ceres::CostFunction* NewEdgeCost(const EdgeModel& edge, double blur_px, const EdgeWeights& weights)
+ceres::CostFunction* NewEdgeCost(const EdgeModel& edge, double soft_blur_px, const EdgeWeights& weights)
 {
-	return new EdgeCostFunction<EdgeCost, 2>(new EdgeCost{ edge, blur_px, weights });
+	return new EdgeCostFunction<EdgeCost, 2>(new EdgeCost{ edge, soft_blur_px, weights });
 }
 
 ceres::CostFunction* NewPhotometricCost(const EdgeModel& edge, const Edge& measured, const EdgeWeights& weights)

@@ -8,6 +8,7 @@
 #include "model/projection.h"
 #include <tiltcal/calibration.h>
 #include "model/footprint.h"
+#include "edge/soft_radius.h"
 #include "model/lens_model.h"
 
 #include <ceres/autodiff_cost_function.h>
@@ -43,11 +44,10 @@ struct EdgeModel
 	Vec3<double> axis;     ///< lens normal about which the distortion acts, unless axis_is_free
 	bool axis_is_free;     ///< it is the normal of the lens whose plane of focus the state has
 
-	/// seen[0]: place along the normal from (u, v); seen[1]: blur width; px.
+	/// seen[0]: place along the normal from (u, v); seen[1]: soft blur width (edge/soft_radius.h); px.
 	template<typename T>
 	bool See(const EdgeBlocks<T>& b, T* seen) const
 	{
-		using std::sqrt;
 		const Vec3<T> P = CameraFromBoard(b.pose, X, Y) - Vec3<T>{ b.lens_centre[0], b.lens_centre[1], b.lens_centre[2] };
 		if (P.z <= T(1e-9))
 			return false;
@@ -60,8 +60,7 @@ struct EdgeModel
 		picture.ProjectThroughPupils(*b.pupil_magnification, P, pixel);
 		seen[0] = T(nx) * (pixel[0] - T(u)) + T(ny) * (pixel[1] - T(v));
 		const Vec3<T> G = picture.Gradient(P, T(nx), T(ny));
-		// The tiny constant keeps the root smooth where blur and floor both vanish.
-		seen[1] = sqrt(SquaredFootprintWidth(*b.d, q, n, b.curvature, P, G) + *b.floor_squared + T(1e-6));
+		seen[1] = SoftDiameterOfSquare(T(SquaredFootprintWidth(*b.d, q, n, b.curvature, P, G) + *b.floor_squared));
 		return true;
 	}
 
@@ -82,8 +81,8 @@ struct EdgeWeights
 	double offset, blur;
 };
 
-/// Two residuals: place and blur width, against the measured ones.
-ceres::CostFunction* NewEdgeCost(const EdgeModel& edge, double blur_px, const EdgeWeights& weights);
+/// Two residuals: place and soft blur width, against the measured ones.
+ceres::CostFunction* NewEdgeCost(const EdgeModel& edge, double soft_blur_px, const EdgeWeights& weights);
 
 /// A residual for every bin of the edge's profile: its brightness against that of an edge where and as wide
 /// as the camera says (disc_edge.h), dark and bright side fitted to every edge anew (variable projection;

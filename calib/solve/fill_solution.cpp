@@ -59,7 +59,8 @@ void FillSolution(const Task& task, const Geometry& g, const BlurFit& fit, const
 	out.correlations = CorrelationsOf(task, fit.model, c);
 	out.w_mm = { w, c.Sigma(Number::IMAGE_DISTANCE) };
 	out.aperture_diameter = { x.d, c.Sigma(Number::APERTURE_DIAMETER) };
-	const double floor = std::sqrt(x.floor_squared), floor_squared_sigma = c.Sigma(Number::FLOOR_SQUARED);
+	const double floor = std::sqrt(std::max(x.floor_squared, 0.0)), floor_squared_sigma = c.Sigma(Number::FLOOR_SQUARED);
+	out.psf_floor_squared = { x.floor_squared, floor_squared_sigma };
 	out.psf_floor_px = { floor, floor_squared_sigma / std::max(2 * floor, std::sqrt(floor_squared_sigma)) };
 	const double C = x.curvature[0], half = x.curvature[1];
 	out.field_curvature = { C, c.Sigma(Number::CURVATURE) };

@@ -58,7 +58,7 @@ ceres::CostFunction* CostOf(const JointFit& fit, const Edge& e, const Vec3<doubl
 	const EdgeWeights weights = WeightsOf(fit, e);
 	if (fit.kind == Refinement::PHOTOMETRIC && !e.profile.empty() && !fit.geometry_alone)
 		return NewPhotometricCost(edge, e, weights);
-	return NewEdgeCost(edge, e.blur, weights);
+	return NewEdgeCost(edge, SoftDiameter(e.blur), weights);
 }
 
 void Build(const JointFit& fit, Geometry& g, Unknowns& x, ceres::Problem& problem)
@@ -203,7 +203,7 @@ std::vector<std::array<double, 2>> JointFit::Residuals(const Geometry& geometry,
 	{
 		double seen[2] = { 1e9, 1e9 };
 		MakeEdgeModel(task, model, e, g.states[s].lens_normal, geometry_alone).See(BlocksOf(g, y, s, p), seen);
-		all.push_back({ seen[0], seen[1] - e.blur });
+		all.push_back({ seen[0], seen[1] - SoftDiameter(e.blur) });
 	});
 	return all;
 }

@@ -22,7 +22,7 @@ Unknowns UnknownsOf(const Solution& s)
 {
 	Unknowns x;
 	x.d = s.aperture_diameter.value;
-	x.floor_squared = s.psf_floor_px.value * s.psf_floor_px.value;
+	x.floor_squared = s.psf_floor_squared.value;
 	x.power = 1 / s.focal_length.value;
 	x.curvature = { s.field_curvature.value, 0.5 * (s.tangential_curvature.value - s.sagittal_curvature.value) };
 	for (const StateLens& state : s.states)

@@ -149,7 +149,7 @@ TEST(Circles, WhiteOnDarkVignettedAndSmall)
 	scene.vignetting = 3;
 	scene.eight_bit = true;
 	const Pattern dark = PatternOf(board);
-	const Errors e = Measure(scene, board, TakePicture(scene, [&](double x, double y) { return 0.85f - dark(x, y); }));
+	const Errors e = Measure(scene, board, TakePicture(scene, { [&](double x, double y) { return 0.85f - dark.light(x, y); } }));
 	EXPECT_TRUE(e.bright);
 	EXPECT_LT(e.centre, 0.05);
 	EXPECT_LT(std::abs(e.blur_mean), 0.05);

@@ -61,6 +61,85 @@ cv::Matx33d Homography(const Scene& scene, const Eigen::Vector3d& S)
 	return { h.at<double>(0), h.at<double>(1), h.at<double>(2), h.at<double>(3), h.at<double>(4), h.at<double>(5), h.at<double>(6), h.at<double>(7), 1 };
 }
 
+/// Board point of a pixel's place.
+Eigen::Vector2d Through(const cv::Matx33d& H, const Eigen::Vector2d& p)
+{
+	const double z = H(2, 0) * p.x() + H(2, 1) * p.y() + 1;
+	return { (H(0, 0) * p.x() + H(0, 1) * p.y() + H(0, 2)) / z, (H(1, 0) * p.x() + H(1, 1) * p.y() + H(1, 2)) / z };
+}
+
+/// The camera's direction in pixel p, and back.
+Eigen::Vector3d DirectionOf(const Scene& scene, const Eigen::Vector2d& p)
+{
+	return { (p.x() - 0.5 * (scene.width - 1)) / scene.w_px, (p.y() - 0.5 * (scene.height - 1)) / scene.w_px, 1 };
+}
+
+Eigen::Vector2d PixelOf(const Scene& scene, const Eigen::Vector3d& v)
+{
+	return { 0.5 * (scene.width - 1) + scene.w_px * v.x() / v.z(), 0.5 * (scene.height - 1) + scene.w_px * v.y() / v.z() };
+}
+
+/// Moves a direction about the lens's axis: its distance from the axis over that along it becomes `radius` of what it was.
+template<typename Radius>
+Eigen::Vector2d MovedAboutLensAxis(const Scene& scene, const Eigen::Vector2d& p, const Radius& radius)
+{
+	const Eigen::Vector3d v = DirectionOf(scene, p), along = v.dot(scene.lens_normal) * scene.lens_normal, across = v - along;
+	const double r = across.norm() / along.norm();
+	return r > 0 ? PixelOf(scene, Eigen::Vector3d(along + across * (radius(r) / r))) : p;
+}
+
+/// Where a lens without distortion would show what pixel p shows.
+Eigen::Vector2d Undistorted(const Scene& scene, const Eigen::Vector2d& p)
+{
+	if (scene.k1 == 0)
+		return p;
+	return MovedAboutLensAxis(scene, p, [&](double distorted)
+	{
+		double r = distorted;
+		for (int k = 0; k < 20; ++k)
+			r -= (r * (1 + scene.k1 * r * r) - distorted) / (1 + 3 * scene.k1 * r * r);
+		return r;
+	});
+}
+
+Eigen::Vector2d Distorted(const Scene& scene, const Eigen::Vector2d& p)
+{
+	if (scene.k1 == 0)
+		return p;
+	return MovedAboutLensAxis(scene, p, [&](double r) { return r * (1 + scene.k1 * r * r); });
+}
+
+const int TURNS = 7;
+const int RIM = 8;   // points of the lens's rim that bound what a pixel sees
+
+/// Mean over the lens and the pixel; where both see one shade only, that shade.
+double LightOfPixel(const Scene& scene, const Pattern& pattern, const std::vector<cv::Matx33d>& inside, const std::vector<cv::Matx33d>& rim, int x, int y)
+{
+	const Eigen::Vector2d middle = Undistorted(scene, { x, y });
+	const Eigen::Vector2d by_x = Undistorted(scene, { x + 1.0, y }) - middle, by_y = Undistorted(scene, { x, y + 1.0 }) - middle;
+	if (pattern.clearance)
+	{
+		const Eigen::Vector2d seen = Through(inside[0], middle);
+		double reach = 0;
+		for (const cv::Matx33d& H : rim)
+			reach = std::max(reach, (Through(H, middle) - seen).norm());
+		const double pixel = (Through(inside[0], middle + by_x) - seen).norm() + (Through(inside[0], middle + by_y) - seen).norm();
+		// Eight points of an ellipse miss 8 % of its half axis.
+		if (pattern.clearance(seen.x(), seen.y()) > 1.15 * reach + pixel)
+			return pattern.light(seen.x(), seen.y());
+	}
+	double sum = 0;
+	// Low-discrepancy points of the pixel (R2 sequence), begun elsewhere in every pixel.
+	const double start = 0.5 + x * 0.7548776662 + y * 0.5698402910;
+	for (size_t k = 0; k < inside.size(); ++k)
+	{
+		const double u = start + double(k) * 0.7548776662466927, v = start * 1.7 + double(k) * 0.5698402909980532;
+		const Eigen::Vector2d at = Through(inside[k], middle + (u - std::floor(u) - 0.5) * by_x + (v - std::floor(v) - 0.5) * by_y);
+		sum += pattern.light(at.x(), at.y());
+	}
+	return sum / double(inside.size());
+}
+
 float ThroughSrgb(float v)
 {
 	const double c = v <= 0 ? 0 : v >= 1 ? 1 : v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
@@ -72,18 +151,27 @@ float ThroughSrgb(float v)
 
 Pattern Checkerboard(int columns, int rows, double s)
 {
-	return [=](double x, double y)
+	const auto light = [=](double x, double y)
 	{
 		const double i = x / s + 1, j = y / s + 1;
 		if (i >= 0 && j >= 0 && i < columns && j < rows)
 			return (static_cast<int>(i) + static_cast<int>(j)) % 2 == 0 ? 0.05f : 0.8f;
 		return i >= -1 && j >= -1 && i <= columns + 1 && j <= rows + 1 ? 0.8f : 0.3f;
 	};
+	// Every change lies on a line of the lattice, and none beyond the white around the squares.
+	const auto clearance = [=](double x, double y)
+	{
+		const double i = x / s + 1, j = y / s + 1;
+		if (i < -2 || j < -2 || i > columns + 2 || j > rows + 2)
+			return s;
+		return s * std::min(std::abs(i - std::round(i)), std::abs(j - std::round(j)));
+	};
+	return { light, clearance };
 }
 
 Pattern Circles(int columns, int rows, double s, double diameter, bool asymmetric)
 {
-	return [=](double x, double y)
+	const auto light = [=](double x, double y)
 	{
 		const double row = std::floor(y / s + 0.5);
 		// A circle reaches into the rows next to its own when it is larger than a spacing; none does in these pictures.
@@ -97,34 +185,28 @@ Pattern Circles(int columns, int rows, double s, double diameter, bool asymmetri
 		const double margin = 0.5 * (diameter + s), width = asymmetric ? (2 * columns - 1) * s : (columns - 1) * s;
 		return x >= -margin && y >= -margin && x <= width + margin && y <= (rows - 1) * s + margin ? 0.8f : 0.3f;
 	};
+	return { light };
 }
 
 cv::Mat TakePicture(const Scene& scene, const Pattern& pattern)
 {
-	std::vector<cv::Matx33d> homographies;
+	// Fermat's spiral covers the disc evenly; turned from pixel to pixel, so that its grain is not the same along an edge.
 	const int n = scene.lens_points;
-	// Fermat's spiral covers the disc evenly.
-	for (int k = 0; k < n; ++k)
-		homographies.push_back(Homography(scene, LensPoint(scene, std::sqrt((k + 0.5) / n), k * 2.399963229728653)));
+	std::vector<std::vector<cv::Matx33d>> inside(TURNS);
+	for (int turn = 0; turn < TURNS; ++turn)
+		for (int k = 0; k < n; ++k)
+			inside[size_t(turn)].push_back(Homography(scene, LensPoint(scene, std::sqrt((k + 0.5) / n), k * 2.399963229728653 + turn * 2 * M_PI / TURNS)));
+	std::vector<cv::Matx33d> rim;
+	for (int k = 0; k < RIM; ++k)
+		rim.push_back(Homography(scene, LensPoint(scene, 1, k * 2 * M_PI / RIM)));
 	cv::Mat picture(scene.height, scene.width, CV_32FC1);
 	cv::parallel_for_(cv::Range(0, scene.height), [&](const cv::Range& range)
 	{
 		for (int y = range.start; y < range.end; ++y)
 			for (int x = 0; x < scene.width; ++x)
 			{
-				double sum = 0;
-				for (int k = 0; k < n; ++k)
-				{
-					// Low-discrepancy points of the pixel (R2 sequence), begun elsewhere in every pixel.
-					const double start = 0.5 + x * 0.7548776662 + y * 0.5698402910;
-					const double u = start + k * 0.7548776662466927, v = start * 1.7 + k * 0.5698402909980532;
-					const double px = x + u - std::floor(u) - 0.5, py = y + v - std::floor(v) - 0.5;
-					const cv::Matx33d& H = homographies[static_cast<size_t>(k)];
-					const double z = H(2, 0) * px + H(2, 1) * py + 1;
-					sum += pattern((H(0, 0) * px + H(0, 1) * py + H(0, 2)) / z, (H(1, 0) * px + H(1, 1) * py + H(1, 2)) / z);
-				}
 				const double dx = (x + 0.5) / scene.width - 0.5, dy = (y + 0.5) / scene.height - 0.5;
-				picture.at<float>(y, x) = static_cast<float>(sum / n * (1 - (1 - 1 / scene.vignetting) * 2 * (dx * dx + dy * dy)));
+				picture.at<float>(y, x) = static_cast<float>(LightOfPixel(scene, pattern, inside[size_t((3 * x + 5 * y) % TURNS)], rim, x, y) * (1 - (1 - 1 / scene.vignetting) * 2 * (dx * dx + dy * dy)));
 			}
 	});
 	std::mt19937 random(scene.seed);
@@ -142,7 +224,7 @@ cv::Mat TakePicture(const Scene& scene, const Pattern& pattern)
 
 Eigen::Vector2d PixelOf(const Scene& scene, double x, double y)
 {
-	return PixelThrough(scene, OnBoard(scene, x, y), Eigen::Vector3d::Zero());
+	return Distorted(scene, PixelThrough(scene, OnBoard(scene, x, y), Eigen::Vector3d::Zero()));
 }
 
 double BlurRadius(const Scene& scene, double x, double y, double nx, double ny)
@@ -151,7 +233,7 @@ double BlurRadius(const Scene& scene, double x, double y, double nx, double ny)
 	// 720 points of the rim leave out 1e-5 of the width.
 	for (int k = 0; k < 720; ++k)
 	{
-		const Eigen::Vector2d p = PixelThrough(scene, OnBoard(scene, x, y), LensPoint(scene, 1, k * M_PI / 360));
+		const Eigen::Vector2d p = Distorted(scene, PixelThrough(scene, OnBoard(scene, x, y), LensPoint(scene, 1, k * M_PI / 360)));
 		least = std::min(least, p.x() * nx + p.y() * ny);
 		most = std::max(most, p.x() * nx + p.y() * ny);
 	}

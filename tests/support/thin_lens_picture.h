@@ -31,10 +31,16 @@ struct Scene
 	double vignetting = 1;                    ///< the corners are darker by this factor
 	bool eight_bit = false;                   ///< sRGB-coded, rounded and decoded
 	int lens_points = 300;
+	double k1 = 0;                            ///< radial distortion about the lens's axis: distorted = ideal (1 + k1 r^2), in units of the axial distance
 };
 
 /// Light of the board's plane at (x, y) mm, 0..1.
-using Pattern = std::function<float(double x, double y)>;
+struct Pattern
+{
+	std::function<float(double x, double y)> light;
+	/// No farther than the nearest change of the light, mm; empty: not known.
+	std::function<double(double x, double y)> clearance{};
+};
 
 /// Squares of `square_mm`, the first inner corner at the origin, black at the top left, one square of white around.
 Pattern Checkerboard(int columns, int rows, double square_mm);

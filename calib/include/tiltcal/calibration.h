@@ -104,8 +104,9 @@ struct Solution
 	Model model = Model::PLANE;
 	LensModel lens = LensModel::PLANE;    ///< of the exact models
 	Estimate w_mm, aperture_diameter, focus_distance, focal_length, psf_floor_px;
+	Estimate psf_floor_squared;           ///< px^2; negative where edges are steeper than their pixels make them: the photographs were sharpened
 	std::vector<StateLens> states;
-	double rms_blur = 0;
+	double rms_blur = 0;                  ///< px; of blurs smaller than a pixel, of half the difference of their squares
 	Estimate field_curvature;             ///< C, 1/mm; the mean of the two below
 	Estimate tangential_curvature, sagittal_curvature;
 	double held_out_px = 0;  ///< of blur left out; 0 when it was not asked for or cannot be had

@@ -54,12 +54,14 @@ struct Edge
 	double x = 0, y = 0;         ///< the same place in the picture, pixels
 	double nx = 0, ny = 0;       ///< unit normal in the picture (y down), dark to bright
 	double slope = 0;            ///< the edge's direction is (ny, -nx) + slope (nx, ny)
-	double blur = 0;             ///< diameter of the blur disc, pixels
-	double blur_sigma = 0;
+	/// Diameter of the blur disc, pixels. Negative where the edge is steeper than its pixels make it, by noise or by sharpening: minus the root of the excess.
+	double blur = 0;
+	double blur_sigma = 0;       ///< of the blur where it is large beside a pixel, of half its square where it is not (edge/soft_radius.h)
 	double offset_sigma = 0, slope_sigma = 0;
 	double low = 0, high = 0;    ///< linear light on both sides
 	double noise = 0;            ///< RMS residual of a pixel, linear light
 	std::vector<ProfileBin> profile;   ///< of a straight edge that was measured alone, else empty
+	double reach = 0, span = 0;  ///< of the pixels that were used: how far they lie across and along, from its middle, px
 	double square_px = 0;        ///< what lies between edges here: the square's shorter side in the picture; of a circle the smaller radius
 
 	/// Blur radius over the side of a square, or over the circle's radius.
@@ -84,7 +86,7 @@ struct ColourEdge
 {
 	Edge green;                        ///< without its profile
 	std::array<double, 2> shift{}, shift_sigma{};     ///< red's and blue's place minus green's along green's normal, px
-	std::array<double, 2> widening{}, widening_sigma{};   ///< red's and blue's blur minus green's, px
+	std::array<double, 2> widening{}, widening_sigma{};   ///< red's and blue's soft blur (edge/soft_radius.h) minus green's, px
 };
 
 /// Everything measured in one photograph. Corners row by row: index row * InnerColumns + column;

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "closed_loop.h"
+
+#include "model/tilt_angles.h"
+#include <tiltcal/error.h>
+
+#include <cmath>
+#include <filesystem>
+
+namespace cameras
+{
+
+namespace
+{
+
+using tiltcal::Calibration;
+
+Deviation Of(const std::string& name, double truth, const tiltcal::Estimate& found) { return { name, truth, found.value, found.sigma }; }
+
+/// Tilts as vectors: along the true one, and across it.
+void AddTilt(const Calibration& c, size_t s, const std::pair<double, double>& truth, Answer& a)
+{
+	const tiltcal::StateLens& lens = c.solution.states[s];
+	const double phi = truth.second * M_PI / 180;
+	const Eigen::Vector2d along(std::cos(phi), std::sin(phi)), across(-along.y(), along.x());
+	const double found_phi = lens.tilt_direction.value * M_PI / 180;
+	const Eigen::Vector2d found = lens.lens_tilt.value * Eigen::Vector2d(std::cos(found_phi), std::sin(found_phi));
+	const std::string state = " " + c.task.states[s].name;
+	// A small tilt's direction is uncertain, its vector is not.
+	a.deviations.push_back({ "tilt along" + state, truth.first, found.dot(along), lens.lens_tilt.sigma });
+	a.deviations.push_back({ "tilt across" + state, 0, found.dot(across), lens.tilt_direction.sigma * M_PI / 180 * std::abs(lens.lens_tilt.value) });
+	a.tilt_error = std::max(a.tilt_error, (found - truth.first * along).norm());
+}
+
+void Compare(const Camera& camera, const Calibration& c, Answer& a)
+{
+	a.deviations.push_back(Of("w", camera.ImageDistance(), c.solution.w_mm));
+	a.deviations.push_back(Of("f", camera.focal_length, c.solution.focal_length));
+	a.deviations.push_back(Of("d", camera.Aperture(), c.solution.aperture_diameter));
+	if (std::isfinite(camera.focus_distance))
+		a.deviations.push_back(Of("U", camera.focus_distance, c.solution.focus_distance));
+	for (size_t s = 1; s < c.solution.states.size(); ++s)
+		AddTilt(c, s, camera.tilts[s - 1], a);
+	for (size_t s = 0; s < c.geometry.states.size(); ++s)
+	{
+		const tiltcal::StateGeometry& g = c.geometry.states[s];
+		if (g.principal_point_fixed)
+			continue;
+		a.deviations.push_back({ "cx " + c.task.states[s].name, 0.5 * (camera.width - 1), g.principal_point[0], g.principal_point_sigma[0] });
+		a.deviations.push_back({ "cy " + c.task.states[s].name, 0.5 * (camera.height - 1), g.principal_point[1], g.principal_point_sigma[1] });
+	}
+	if (c.geometry.distortion_terms > 0 || camera.k1 != 0)
+		a.deviations.push_back({ "k1", camera.k1, c.geometry.distortion[0], c.geometry.distortion_sigma[0] });
+}
+
+}
+
+Negatives Photograph(const Camera& camera, unsigned seed)
+{
+	Negatives n{ camera, {} };
+	const std::vector<std::vector<synthetic::Scene>> states = PhotographAll(n.camera, seed);
+	const tiltcal::Board& b = n.camera.board;
+	const synthetic::Pattern pattern = b.IsCheckerboard() ? synthetic::Checkerboard(b.columns, b.rows, b.square_mm)
+		: synthetic::Circles(b.columns, b.rows, b.square_mm, b.circle_diameter_mm, b.kind == tiltcal::TargetKind::ASYMMETRIC_CIRCLES);
+	for (const auto& scenes : states)
+	{
+		n.pictures.emplace_back();
+		for (const synthetic::Scene& scene : scenes)
+			n.pictures.back().push_back(synthetic::TakePicture(scene, pattern));
+	}
+	return n;
+}
+
+Answer CloseTheLoop(const Negatives& n, const Light& light, unsigned seed, const std::string& folder, const tiltcal::CalibrateOptions& choice)
+{
+	std::filesystem::create_directories(folder);
+	std::vector<tiltcal::StateFiles> states;
+	for (size_t s = 0; s < n.pictures.size(); ++s)
+	{
+		states.push_back({ s ? "tilted" + std::to_string(s) : "untilted", {} });
+		for (size_t p = 0; p < n.pictures[s].size(); ++p)
+			states.back().files.push_back(Develop(n.pictures[s][p], light, unsigned(seed * 1000 + 100 * s + p), folder + "/" + states.back().name + "-" + std::to_string(p)));
+	}
+	Answer a;
+	try
+	{
+		tiltcal::MeasureOptions measure;
+		measure.transfer.kind = light.srgb ? tiltcal::Transfer::SRGB : tiltcal::Transfer::LINEAR;
+		a.calibration = tiltcal::Calibrate(tiltcal::MeasureAll(states, n.camera.board, n.camera.pitch, measure), choice);
+		Compare(n.camera, a.calibration, a);
+	}
+	catch (const tiltcal::Error& e)
+	{
+		a.refusal = e.what();
+	}
+	return a;
+}
+
+}

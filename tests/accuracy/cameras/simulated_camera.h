@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// Cameras, and how a person photographs a board with them: boards in the picture, inclined, sharp in one part and blurred
+// in another, seeded. The light is that of tests/support/thin_lens_picture.h, which shares nothing with the calibrator.
+
+#ifndef SIMULATED_CAMERA_H
+#define SIMULATED_CAMERA_H
+
+#include "support/thin_lens_picture.h"
+
+#include <tiltcal/board.h>
+
+#include <string>
+#include <vector>
+
+namespace cameras
+{
+
+/// Lengths mm, angles degrees.
+struct Camera
+{
+	std::string name;
+	double focal_length = 45, f_number = 2.8, focus_distance = 700;   ///< the latter from the lens; infinity: HUGE_VAL
+	int width = 1200, height = 800;
+	double pitch = 0.02;
+	tiltcal::Board board;                      ///< its size is chosen by SizeOfBoard where it is 0
+	std::vector<std::pair<double, double>> tilts;   ///< of the lens, and direction
+	double k1 = 0;
+	bool shared_poses = false;
+	int photos = 5;                            ///< per state
+
+	double ImageDistance() const;
+	double Aperture() const { return focal_length / f_number; }
+};
+
+/// The table: name, and what it is.
+std::vector<Camera> AllCameras();
+
+/// A camera drawn at random: lens, sensor, focus, board and tilt, all that AllCameras() spans.
+Camera RandomCamera(unsigned seed);
+
+/// The scenes of every state, the untilted one first. `seed` chooses the poses. Throws std::runtime_error where no pose
+/// keeps the blur measurable.
+std::vector<std::vector<synthetic::Scene>> PhotographAll(Camera& camera, unsigned seed);
+
+}
+
+#endif
