@@ -70,6 +70,7 @@ void TracePixel::TraceTiltLensTile(int left, int top, int right, int bottom, int
 		if((pixel->x >= left) && (pixel->x <= right) && (pixel->y >= top) && (pixel->y <= bottom))
 			colours.push_back(pixel->sums.Mean());
 		threadData->tiltLensCounts.AddPixel(pixel->sums.count, pixel->sums.Changes(pixel->neighbourhood_variance));
+		threadData->tiltLensCounts.AddLight(pixel->sums.rays, pixel->sums.Rarity(), pixel->sums.count < lens.levels.back().samples);
 	}
 	threadData->Stats()[Number_Of_Pixels] += colours.size();
 

@@ -4,6 +4,9 @@
 
 #include "tiltcost/pilot_run.h"
 
+#include "lens/pilot.h"
+
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <sstream>
@@ -47,9 +50,16 @@ RenderLog ReadRenderLog(const std::string& log)
 			tracing = true;
 		if (tracing && std::sscanf(line.c_str(), " using %d thread", &threads) == 1 && threads > 0)
 			read.threads = threads;
+		const size_t rays = line.find("Camera Rays:");
+		if (rays != std::string::npos)
+			read.camera_rays = std::atof(line.c_str() + rays + 12);
 		if (line.compare(0, 9, "Aperture:") == 0)
 			read.pinhole = Contains(line, "pinhole");
 	}
+	// The console breaks lines at spaces.
+	std::string words = log;
+	std::replace(words.begin(), words.end(), '\n', ' ');
+	read.writes = Contains(words, tilt_lens::PilotWritesNothing);
 	return read;
 }
 
