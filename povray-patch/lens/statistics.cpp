@@ -160,10 +160,10 @@ std::string StatisticsText(const TiltLens& lens, const FocusCounts& focus, const
 		Append(text, "Samples/Pixel:   min %u  mean %.2f  max %u   Camera Rays: %.0f\n", counts.min_samples,
 		       double(counts.samples) / double(counts.pixels), counts.max_samples, double(counts.rays));
 		const bool least = counts.MayMissLight();
-		Append(text, "Estimated Error: %s%.5f RMS of the picture (linear), %.2f of 255 levels DEBUG %.3f early %.3f\n", least ? "at least " : "", rms, 255.0 * rms, counts.rare.rests_on_few/counts.rare.spread, double(counts.early)/double(counts.pixels));
+		Append(text, "Estimated Error: %s%.5f RMS of the picture (linear), %.2f of 255 levels\n", least ? ">= " : "", rms, 255.0 * rms);
 		if(least)
-			text += "  Few samples met small bright lights; pixels that stopped early may have\n"
-			        "  missed them. A larger minimum in blur_samples finds them.\n";
+			text += "  at least: few samples met small bright lights, and pixels that stopped\n"
+			        "  early may have missed them; a larger minimum in blur_samples finds them\n";
 		if(denoised_rms >= 0.0)
 			Append(text, "  before denoise: %.5f\n", sampled);
 	}

@@ -44,7 +44,7 @@ void TracePixel::SetupTiltLens()
 	else
 		addTiltLensSample = lens.splits ? &TracePixel::AddTiltLensSample<false, false, true> : &TracePixel::AddTiltLensSample<false, false, false>;
 	tiltLensTouchesInterior = InteriorTouchesTiltLens();
-	tiltLensMedia = dynamic_cast<MediaFunction *>(&media);
+	tiltLensMedia = NULL;   // tasks make theirs after the tracer: it is asked for later
 	// Made when first asked for, which would be too late to seed them. Subsurface light nests to depth 2.
 	for(int depth = 0; sceneData->useSubsurface && (depth <= 2); depth++)
 	{
@@ -69,6 +69,8 @@ void TracePixel::SeedRandomNumbersOfTiltLens(unsigned int seed)
 {
 	crandRandomNumberGenerator = seed;
 	randomNumberGenerator.SetSeed(seed);
+	if(tiltLensMedia == NULL)
+		tiltLensMedia = dynamic_cast<MediaFunction *>(&media);
 	if(tiltLensMedia != NULL)
 		tiltLensMedia->SeedRandomNumbers(seed);
 	Seed_Generators(ssltUniformDirectionGenerator, seed);

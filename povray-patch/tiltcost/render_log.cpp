@@ -6,7 +6,6 @@
 
 #include "lens/pilot.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <sstream>
@@ -56,9 +55,13 @@ RenderLog ReadRenderLog(const std::string& log)
 		if (line.compare(0, 9, "Aperture:") == 0)
 			read.pinhole = Contains(line, "pinhole");
 	}
-	// The console breaks lines at spaces.
-	std::string words = log;
-	std::replace(words.begin(), words.end(), '\n', ' ');
+	// The console breaks lines at spaces, and indents.
+	std::string words;
+	for (const char c : log)
+		if (c != '\n' && (c != ' ' || words.empty() || words.back() != ' '))
+			words += c;
+		else if (c == '\n' && !words.empty() && words.back() != ' ')
+			words += ' ';
 	read.writes = Contains(words, tilt_lens::PilotWritesNothing);
 	return read;
 }

@@ -94,7 +94,7 @@ warnings)
 		# $options: words.
 		render "$ours" "$name.exr" "$name.pov" +W4 +H3 $options
 		said=$(tr -s '\n ' ' ' < "$name.exr.log")
-		[ $# -gt 0 ] || { grep -q 'Warning' "$name.exr.log" && fail "$name: $(grep -A2 Warning "$name.exr.log")"; }
+		[ $# -gt 0 ] || { grep -q 'Warning:' "$name.exr.log" && fail "$name: $(grep -A2 Warning: "$name.exr.log")"; }
 		for text in "$@"; do
 			case $said in
 				*"Warning: $text"*) echo "$name: $text" ;;
@@ -117,7 +117,7 @@ warnings)
 	warned two 'aperture_diameter 0.1' '} camera { location 0 look_at z' '' 'More than one camera in scene. Ignoring previous camera(s).' 'The tilt_lens of the camera before is ignored with it.'
 	printf '%s\n' '#version 3.7; global_settings { assumed_gamma 1 } camera { location 0 } camera { tilt_lens { } location 0 look_at z }' > second.pov
 	render "$ours" second.exr second.pov +W4 +H3
-	grep -q 'Ignoring previous' second.exr.log || fail "stock's own warning is gone"
+	grep -q 'More than one camera' second.exr.log || fail "stock's own warning is gone"
 	grep -q 'tilt_lens of the camera before' second.exr.log && fail "the first camera had no tilt_lens"
 	;;
 empty)

@@ -318,7 +318,7 @@ TEST(PilotRun, ReadsPovraysMessages)
 	// As the console breaks it.
 	std::string refused = std::string("File 's.pov' line 2: Parse Error: ") + tilt_lens::PilotWritesNothing + ": log.txt\n";
 	EXPECT_TRUE(ReadRenderLog(refused).writes);
-	refused[refused.find(' ', 60)] = '\n';
+	refused.replace(refused.find(' ', 60), 1, "\n   ");
 	EXPECT_TRUE(ReadRenderLog(refused).writes);
 	EXPECT_FALSE(log.radiosity);
 	const std::string errors = ErrorLines("Parser Options\nFile 'bad.pov' line 1: Parse Error: No matching } in 'camera'\nFatal error in parser: Cannot parse input.\nRender failed\n");
