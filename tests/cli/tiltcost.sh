@@ -47,7 +47,14 @@ bad_values)
 no_povray) scene s.pov "$lens"; povray=./nowhere; refuses 3 "nowhere: no such program" s.pov ;;
 unwritable)
 	scene s.pov "$lens"; : >blocked
-	refuses 3 blocked s.pov --csv blocked/table.csv; refuses 3 nowhere s.pov --plot nowhere/plot.svg ;;
+	refuses 3 blocked s.pov --csv blocked/table.csv; refuses 3 nowhere s.pov --plot nowhere/plot.svg
+	# A folder that one may not write into; root may, so nobody tries.
+	mkdir locked; chmod 555 locked; chmod 777 tmp; as=
+	[ "$(id -u)" -ne 0 ] || as="setpriv --reuid=65534 --regid=65534 --clear-groups"
+	$as test -x "$tiltcost" -a -x "$povray" || { echo "SKIPPED: nobody cannot reach $tiltcost, and this is root: a locked folder is not tested"; exit 77; }
+	$as "$tiltcost" --povray "$povray" s.pov --csv locked/table.csv >out 2>err
+	[ $? = 3 ] || fail "a locked folder is written into"
+	says "locked/table.csv: cannot be written"; silent ;;
 table)
 	scene s.pov "$lens"
 	expect 0 s.pov $small --csv table.csv --plot plot.svg --setting 16,64,0.0001
