@@ -28,13 +28,13 @@ struct SampleSums
 	/// Rays that were traced for them: three a sample with wavelengths apart, none where a rim stops it.
 	int rays;
 	/// The most red, green or blue of a sample.
-	double brightest;
+	float brightest;
 
 	/// Mean red, green and blue as they stood at the latest powers of two, latest first.
 	double earlier[ChangesKept + 1][3];
 	int earlier_counts[ChangesKept + 1];
 
-	SampleSums() : count(0), withheld(0.0), rays(0), brightest(0.0)
+	SampleSums() : count(0), withheld(0.0), rays(0), brightest(0.0f)
 	{
 		for(int i = 0; i < Channels; i++)
 			sum[i] = squares[i] = 0.0;
@@ -49,7 +49,7 @@ struct SampleSums
 			sum[i] += c[i];
 			squares[i] += double(c[i]) * double(c[i]);
 		}
-		brightest = std::max(brightest, double(std::max(c[0], std::max(c[1], c[2]))));
+		brightest = std::max(std::max(brightest, c[0]), std::max(c[1], c[2]));
 		count++;
 		if((count & (count - 1)) == 0)
 			KeepMean();
