@@ -153,9 +153,11 @@ TEST(Pilot, BlocksAreSpreadOverThePicture)
 	{
 		count[quadrant(blocks[i])]++;
 		// However early the pilot's time is up. The sequence's discrepancy at a power of two.
-		if(i + 1 == 8 || i + 1 == 16 || i + 1 == 64)
-			for(int q : count)
+		for(int q : count)
+			if(i + 1 == 8 || i + 1 == 16 || i + 1 == 64)
+			{
 				EXPECT_NEAR(q, double(i + 1) / 4, 3) << i;
+			}
 	}
 	r.blocks = 100000;
 	const auto all = PilotBlocks(r, 100, 30); // 7 x 2 blocks
