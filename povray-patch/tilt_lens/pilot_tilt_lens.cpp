@@ -60,6 +60,7 @@ void TracePixel::TraceTiltLensPilotBlock(int x, int y, int width, int height)
 {
 	const tilt_lens::PilotRequest& request = camera.Tilt_Lens.pilot;
 	const int w = min(PilotBlockSize, width - x), h = min(PilotBlockSize, height - y);
+	const int rays = camera.Tilt_Lens.lens.splits ? tilt_lens::Wavelengths : 1;     // a sample
 	vector<vector<PilotLevel> > pixels;
 	const DBL start = Thread_Seconds();
 
@@ -75,7 +76,7 @@ void TracePixel::TraceTiltLensPilotBlock(int x, int y, int width, int height)
 			pixels.back().push_back(level);
 		}
 		threadData->tiltLensCounts.AddPixel(pixel.sums.count, pixel.sums.Changes());
-		threadData->tiltLensCounts.AddLight(pixel.sums.rays, pixel.sums.Rarity(), false);
+		threadData->tiltLensCounts.AddLight(pixel.sums.count * rays - pixel.sums.stopped, tilt_lens::RareLight(), false);
 		cooperate();
 	}
 	Append_To_Pilot_File(request.file, tilt_lens::PilotText(x, y, w, h, Thread_Seconds() - start, pixels));

@@ -25,8 +25,8 @@ struct SampleSums
 	/// Light that vignetting or a bokeh pigment kept back, in samples: what lies behind the
 	/// picture is not darkened with it.
 	double withheld;
-	/// Rays that were traced for them: three a sample with wavelengths apart, none where a rim stops it.
-	int rays;
+	/// Rays that were not traced, because a rim stops them or the pixel looks behind the lens.
+	int stopped;
 	/// The most red, green or blue of a sample.
 	float brightest;
 
@@ -34,7 +34,7 @@ struct SampleSums
 	double earlier[ChangesKept + 1][3];
 	int earlier_counts[ChangesKept + 1];
 
-	SampleSums() : count(0), withheld(0.0), rays(0), brightest(0.0f)
+	SampleSums() : count(0), withheld(0.0), stopped(0), brightest(0.0f)
 	{
 		for(int i = 0; i < Channels; i++)
 			sum[i] = squares[i] = 0.0;

@@ -202,6 +202,7 @@ DBL TracePixel::TraceTiltLensRay(Ray& ray, tilt_lens::SampleSums& sums, Colour& 
 	{
 		// No ray, where the pixel looks along or behind the lens: empty, transparent.
 		c = Colour(0.0, 0.0, 0.0, 0.0, 1.0);
+		sums.stopped++;
 		return 1.0;
 	}
 	c.clear();
@@ -215,9 +216,11 @@ DBL TracePixel::TraceTiltLensRay(Ray& ray, tilt_lens::SampleSums& sums, Colour& 
 		weight *= paint.greyscale();
 	}
 	if(Weighs && !(weight > 0.0))
+	{
+		sums.stopped++;
 		return 0.0;
+	}
 
-	sums.rays++;
 	Trace::TraceTicket ticket(maxTraceLevel, adcBailout, sceneData->outputAlpha);
 	TraceRay(ray, c, 1.0, ticket, false, camera.Max_Ray_Distance);
 	if(Paints)
