@@ -194,12 +194,35 @@ void ResolveEffects(const LensSpec& spec, const CameraVectors& camera, TiltLens&
 	SettleSteps(lens);
 }
 
+static std::string Listed(const std::string& names, const std::string& name)
+{
+	return names + (names.empty() ? "" : ", ") + name;
+}
+
 std::string EffectNames(const TiltLens& lens)
 {
 	std::string names;
 	for(const auto& effect : StepsInOrder)
 		if(!effect.name.empty() && effect.is_on(lens))
-			names += (names.empty() ? "" : ", ") + effect.name;
+			names = Listed(names, effect.name);
+	return names;
+}
+
+std::string IdleWords(const LensSpec& spec, const TiltLens& lens)
+{
+	const struct { bool given; std::string name; } words[] =
+	{
+		{ spec.field_curvature.value != 0.0 && !spec.show_plane, NameOf(Word::FieldCurvature) },
+		{ spec.blades.given, NameOf(Word::Blades) },
+		{ spec.bokeh, "bokeh" },
+		{ spec.axial_given && FocusesColours(lens), NameOf(Word::AxialChromatic) },
+		{ spec.denoise, NameOf(Word::Denoise) },
+		{ spec.show_focus, NameOf(Word::ShowFocus) }
+	};
+	std::string names;
+	for(const auto& word : words)
+		if(lens.IsPinhole() && word.given)
+			names = Listed(names, word.name);
 	return names;
 }
 

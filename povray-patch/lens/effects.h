@@ -21,6 +21,10 @@ void ResolveEffects(const LensSpec& spec, const CameraVectors& camera, TiltLens&
 /// empty for none.
 std::string EffectNames(const TiltLens& lens);
 
+/// Words of the scene that need an opening, where the lens has none: they do nothing. Empty
+/// where it has one.
+std::string IdleWords(const LensSpec& spec, const TiltLens& lens);
+
 }
 
 #endif

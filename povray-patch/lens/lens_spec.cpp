@@ -76,9 +76,10 @@ void CheckRanges(const LensSpec& spec)
 		Refuse("tilt_lens: aperture is not a finite number.");
 	if(spec.shift)
 		RequireFinite("shift", spec.shift.value);
-	if(spec.focal_distance && (std::isnan(spec.focal_distance.value) || spec.focal_distance.value == 0.0))
-		Refuse("tilt_lens: focal_distance must not be %g: the plane of focus would pass through the lens centre.",
-		       spec.focal_distance.value);
+	if(spec.focal_distance && std::isnan(spec.focal_distance.value))
+		Refuse("tilt_lens: focal_distance is not a number; for a plane at infinity write a large one, such as 1e30.");
+	if(spec.focal_distance && spec.focal_distance.value == 0.0)
+		Refuse("tilt_lens: focal_distance must not be 0: the plane of focus would pass through the lens centre.");
 	if(spec.seed && !((spec.seed.value >= 0.0) && (spec.seed.value <= 4294967295.0) && (spec.seed.value == std::floor(spec.seed.value))))
 		Refuse("tilt_lens: seed must be a whole number from 0 to 4294967295, but is %g.", spec.seed.value);
 	if(spec.focal_point)

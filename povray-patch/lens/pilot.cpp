@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 
 #include "lens/pilot.h"
 
@@ -13,27 +14,47 @@ PilotRequest ParsePilotRequest(const char *text)
 	PilotRequest request;
 	int at = 0;
 
-	if((text != nullptr) && (std::sscanf(text, "%d,%d,%n", &request.blocks, &request.samples, &at) == 2) && (at > 0) &&
-	   (request.blocks > 0) && (request.samples > 1) && ((request.samples & (request.samples - 1)) == 0) && (text[at] != '\0'))
+	if((text != nullptr) && (std::sscanf(text, "%d,%d,%lf,%n", &request.blocks, &request.samples, &request.seconds, &at) == 3) && (at > 0) &&
+	   (request.blocks > 0) && (request.samples > 1) && ((request.samples & (request.samples - 1)) == 0) && (request.seconds > 0.0) && (text[at] != '\0'))
 		request.file = text + at;
 	else
 		request.blocks = 0;
 	return request;
 }
 
-std::vector<bool> PilotBlocks(const PilotRequest& request, int width, int height)
+bool PilotIsOn()
+{
+	return bool(ParsePilotRequest(std::getenv(PilotVariable)));
+}
+
+bool PilotMayWrite()
+{
+	return std::getenv(PilotWritesVariable) != nullptr;
+}
+
+std::vector<int> PilotBlocks(const PilotRequest& request, int width, int height)
 {
 	const int columns = (width + PilotBlockSize - 1) / PilotBlockSize;
 	const int rows = (height + PilotBlockSize - 1) / PilotBlockSize;
-	std::vector<bool> chosen(size_t(columns) * rows, request.blocks >= columns * rows);
+	const int all = columns * rows;
+	std::vector<int> blocks;
+	std::vector<bool> chosen(size_t(all), false);
+	const auto choose = [&](int block)
+	{
+		if(!chosen[size_t(block)])
+			blocks.push_back(block);
+		chosen[size_t(block)] = true;
+	};
 
 	// Steps of 1/p and 1/p^2, p^3 = p + 1.
-	for(int i = 0; (i < request.blocks) && !chosen.empty(); i++)
+	for(int i = 0; (i < request.blocks) && (all > 0); i++)
 	{
 		const double x = std::fmod(0.5 + i * 0.7548776662466927, 1.0), y = std::fmod(0.5 + i * 0.5698402909980532, 1.0);
-		chosen[size_t(y * rows) * columns + size_t(x * columns)] = true;
+		choose(int(y * rows) * columns + int(x * columns));
 	}
-	return chosen;
+	for(int block = 0; (request.blocks >= all) && (block < all); block++)
+		choose(block);
+	return blocks;
 }
 
 std::string PilotText(int left, int top, int width, int height, double seconds, const std::vector<std::vector<PilotLevel> >& pixels)

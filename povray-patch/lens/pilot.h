@@ -5,8 +5,9 @@
 // number of samples, and the sums on the way written to a file.
 //
 // Asked for in the environment, because a scene is not to be changed for it:
-//   TILT_LENS_PILOT=BLOCKS,SAMPLES,FILE
-// The picture itself stays black outside the blocks.
+//   TILT_LENS_PILOT=BLOCKS,SAMPLES,SECONDS,FILE
+// The picture itself stays black. Files of the user's are not written: a scene that opens one
+// for writing is refused, unless TILT_LENS_PILOT_WRITES is set too.
 
 #ifndef TILT_LENS_PILOT_H
 #define TILT_LENS_PILOT_H
@@ -21,27 +22,39 @@ namespace tilt_lens
 /// Pixels along the side of a block.
 const int PilotBlockSize = 16;
 
-/// Name of the environment's variable.
+/// Names of the environment's variables.
 const char PilotVariable[] = "TILT_LENS_PILOT";
+const char PilotWritesVariable[] = "TILT_LENS_PILOT_WRITES";
+
+/// What the parser says of a file that a scene opens for writing; tiltcost looks for it.
+const char PilotWritesNothing[] = "A pilot render writes no files, and this scene opens one for writing";
+
+/// No block is begun later than its seconds, once so many are.
+const int FewestPilotBlocks = 4;
 
 struct PilotRequest
 {
 	int blocks = 0;             ///< how many are wanted; 0: no pilot
 	int samples = 0;            ///< per pixel, a power of two
+	double seconds = 0.0;       ///< wall time from the first block on, after which no block is begun
 	std::string file;           ///< appended to, one block at a time
 
 	explicit operator bool() const { return blocks > 0; }
 };
 
-/// The request in a text such as "64,256,/tmp/pilot.txt"; none for a null pointer or
+/// The request in a text such as "64,256,10,/tmp/pilot.txt"; none for a null pointer or
 /// a text that says something else.
 PilotRequest ParsePilotRequest(const char *text);
 
-/// A pilot's blocks in a picture of width x height pixels: true at
-/// [(y / PilotBlockSize) * columns + x / PilotBlockSize], columns = ceil(width /
-/// PilotBlockSize). Spread evenly by Roberts' R2 sequence; fewer than asked for where
-/// two fall together.
-std::vector<bool> PilotBlocks(const PilotRequest& request, int width, int height);
+/// Whether this process renders a pilot, and whether its scene may write files.
+bool PilotIsOn();
+bool PilotMayWrite();
+
+/// A pilot's blocks in a picture of width x height pixels, each as (y / PilotBlockSize) *
+/// columns + x / PilotBlockSize, columns = ceil(width / PilotBlockSize). In the order of
+/// Roberts' R2 sequence: what comes first is spread evenly however many follow. Fewer than
+/// asked for where two fall together.
+std::vector<int> PilotBlocks(const PilotRequest& request, int width, int height);
 
 /// The sums of one pixel at one power of two.
 struct PilotLevel

@@ -115,6 +115,12 @@ inline uint64_t Mix(uint64_t z)
 
 }
 
+/// Which random numbers other than its samples a pixel begins with, when it has `count` of them.
+inline uint32_t RandomSeedOfPixel(int x, int y, uint32_t scene_seed, int count)
+{
+	return uint32_t(sobol::Mix(sobol::Mix((uint64_t(uint32_t(y)) << 32) | uint32_t(x)) ^ ((uint64_t(scene_seed) << 32) | uint32_t(count))));
+}
+
 /// The sequence of one pixel. Any 2^k samples from the start are a scrambled
 /// digital net; Next() walks in Gray-code order, which permutes samples only
 /// within such blocks.

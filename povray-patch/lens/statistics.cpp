@@ -17,6 +17,9 @@ RenderCounts& RenderCounts::operator+=(const RenderCounts& o)
 {
 	pixels += o.pixels;
 	samples += o.samples;
+	rays += o.rays;
+	early += o.early;
+	rare += o.rare;
 	min_samples = std::min(min_samples, o.min_samples);
 	max_samples = std::max(max_samples, o.max_samples);
 	for(int i = 0; i < 64; i++)
@@ -155,8 +158,12 @@ std::string StatisticsText(const TiltLens& lens, const FocusCounts& focus, const
 		// Denoising is not expected to add error.
 		const double rms = denoised_rms < 0.0 ? sampled : std::min(sampled, denoised_rms);
 		Append(text, "Samples/Pixel:   min %u  mean %.2f  max %u   Camera Rays: %.0f\n", counts.min_samples,
-		       double(counts.samples) / double(counts.pixels), counts.max_samples, double(counts.samples));
-		Append(text, "Estimated Error: %.5f RMS of the picture (linear), %.2f of 255 levels\n", rms, 255.0 * rms);
+		       double(counts.samples) / double(counts.pixels), counts.max_samples, double(counts.rays));
+		const bool least = counts.MayMissLight();
+		Append(text, "Estimated Error: %s%.5f RMS of the picture (linear), %.2f of 255 levels\n", least ? ">= " : "", rms, 255.0 * rms);
+		if(least)
+			text += "  at least: few samples met small bright lights, and pixels that stopped\n"
+			        "  early may have missed them; a larger minimum in blur_samples finds them\n";
 		if(denoised_rms >= 0.0)
 			Append(text, "  before denoise: %.5f\n", sampled);
 	}

@@ -2,6 +2,11 @@
 
 #include "lens/words.h"
 
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <vector>
+
 namespace tilt_lens
 {
 
@@ -66,6 +71,90 @@ const WordRow* FindWord(const std::string& word)
 		if(word == row.word)
 			return &row;
 	return NULL;
+}
+
+namespace
+{
+
+/// Words of the camera around the block, some of them often written inside it.
+const char* const WordsAround[] = {
+	"location", "look_at", "right", "up", "direction", "angle", "sky", "translate", "rotate", "scale", "transform", "matrix",
+	"aperture", "focal_point", "blur_samples", "variance", "confidence", "bokeh", "normal" };
+
+/// Words of options, where the word before them is left out.
+const struct { const char *option, *word; } Options[] = {
+	{ "natural", "vignetting" }, { "optical", "vignetting" }, { "lateral", "chromatic" }, { "axial", "chromatic" },
+	{ "rotation", "blades" }, { "curvature", "blades" }, { "focus", "show" } };
+
+/// Letters to leave out, add, change or swap with the next, to make one of the other.
+size_t Edits(const std::string& a, const std::string& b)
+{
+	std::vector<std::vector<size_t> > d(a.size() + 1, std::vector<size_t>(b.size() + 1));
+	for(size_t i = 0; i <= a.size(); i++)
+		for(size_t j = 0; j <= b.size(); j++)
+		{
+			if(i == 0 || j == 0)
+			{
+				d[i][j] = i + j;
+				continue;
+			}
+			d[i][j] = std::min(std::min(d[i - 1][j], d[i][j - 1]) + 1, d[i - 1][j - 1] + (a[i - 1] != b[j - 1]));
+			if(i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+				d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+		}
+	return d[a.size()][b.size()];
+}
+
+/// Case is no mistake of letters.
+std::string Folded(const std::string& word)
+{
+	std::string folded;
+	for(char c : word)
+		folded += char(std::tolower((unsigned char)c));
+	return folded;
+}
+
+}
+
+std::string WordLike(const std::string& typed)
+{
+	const std::string folded = Folded(typed);
+	std::string best;
+	size_t least = 3;
+	const auto consider = [&](const std::string& word)
+	{
+		const size_t edits = Edits(folded, word);
+		if(edits < least && 2 * edits < word.size())
+		{
+			least = edits;
+			best = word;
+		}
+	};
+	for(const WordRow& row : Words)
+		consider(row.word);
+	for(const char* word : WordsAround)
+		consider(word);
+	return best;
+}
+
+std::string AdviceOn(const std::string& typed)
+{
+	const auto is = [&](const char* word) { return typed == word; };
+	const auto belongs_around = [](const std::string& word)
+	{
+		return "'" + word + "' belongs outside the tilt_lens block, behind its '}'; is that missing?";
+	};
+	if(std::any_of(std::begin(WordsAround), std::end(WordsAround), is))
+		return belongs_around(typed);
+	for(const auto& o : Options)
+		if(typed == o.option)
+			return "'" + typed + "' follows the word " + o.word + ", as in '" + o.word + (std::strcmp(o.word, "blades") == 0 ? " 5 " : " ") + typed + "'.";
+	const std::string like = WordLike(typed);
+	if(like.empty())
+		return "Unknown word '" + typed + "' in the tilt_lens block; the words are " + ListOfWords() + ".";
+	if(FindWord(like) == NULL)
+		return "Unknown word '" + typed + "' in the tilt_lens block; if '" + like + "' was meant: " + belongs_around(like);
+	return "Unknown word '" + typed + "' in the tilt_lens block; did you mean '" + like + "'?";
 }
 
 std::string ListOfWords()

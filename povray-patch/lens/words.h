@@ -62,6 +62,14 @@ const WordRow* FindWord(const std::string& word);
 /// All words, each once, with commas between.
 std::string ListOfWords();
 
+/// The word that was likely meant, empty where none is near: at most two letters left out,
+/// added, changed or swapped, and less than half of it.
+std::string WordLike(const std::string& typed);
+
+/// What to do about a word that the block does not know: where it belongs, if it is one of
+/// those around the block, or what was meant, or all there are.
+std::string AdviceOn(const std::string& typed);
+
 }
 
 #endif

@@ -2,8 +2,9 @@
 //
 // The effect of POV-Ray's own word `bokeh { pigment { ... } }`: the opening is a square as
 // wide as the aperture, centred on the lens, and the pigment from <0, 0> to <1, 1> says how
-// much light of each colour every point of it lets through; the mean over the opening is
-// divided out, so that the exposure stays. With `blades` the opening is theirs.
+// much light of each colour every point of it lets through; each colour's mean over the opening
+// is divided out, so that exposure and colour stay where the picture is sharp. With `blades` the
+// opening is theirs.
 
 #ifndef TILT_LENS_BOKEH_H
 #define TILT_LENS_BOKEH_H
@@ -30,19 +31,23 @@ inline pov::Colour BokehAt(const pov::PIGMENT *pigment, const PupilPoint& point,
 	return c;
 }
 
-/// Mean brightness over the opening of the lens, of 128 x 128 points placed as samples are.
-inline double MeanBokeh(const pov::PIGMENT *pigment, const TiltLens& lens, pov::TraceThreadData *thread)
+/// What each colour is multiplied by so that the mean over the opening of the lens is 1: of
+/// 128 x 128 points placed as samples are. 0 for a colour that gets through nowhere.
+inline void MeasureBokehGain(const pov::PIGMENT *pigment, const TiltLens& lens, pov::TraceThreadData *thread, double *gain)
 {
 	const int n = 128;
-	double sum = 0.0;
+	double sum[3] = { 0.0, 0.0, 0.0 };
 
 	for(int i = 0; i < n * n; i++)
 	{
 		const double u = (i / n + 0.5) / n, v = (i % n + 0.5) / n;
 		const PupilPoint square = { 2.0 * u - 1.0, 2.0 * v - 1.0 };
-		sum += BokehAt(pigment, lens.square ? square : SquareToBlades(lens.blades, u, v), thread).greyscale();
+		const pov::Colour c = BokehAt(pigment, lens.square ? square : SquareToBlades(lens.blades, u, v), thread);
+		for(int k = 0; k < 3; k++)
+			sum[k] += c[k];
 	}
-	return sum / (n * n);
+	for(int k = 0; k < 3; k++)
+		gain[k] = sum[k] > 0.0 ? n * n / sum[k] : 0.0;
 }
 
 }

@@ -18,6 +18,7 @@ namespace tilt_lens
 {
 
 class DenoisedPicture;
+class PilotQueue;
 class TileBorders;
 
 struct CameraLens
@@ -28,8 +29,9 @@ struct CameraLens
 	boost::shared_ptr<TileBorders> borders; ///< between the tiles of one picture, whichever thread traces them
 
 	boost::shared_ptr<DenoisedPicture> denoised; ///< where the scene asks for it, else null
-	double bokeh_mean = 1.0;            ///< brightness of the bokeh pigment, over the opening
+	double bokeh_gain[3] = {};          ///< for red, green, blue: 1 over the mean of the bokeh pigment over the opening
 	PilotRequest pilot;                 ///< what tiltcost asks for, instead of the picture
+	boost::shared_ptr<PilotQueue> pilot_queue; ///< its blocks
 
 	/// Which of the equally good sets of samples.
 	uint32_t Seed() const { return uint32_t(int64_t(spec.seed.value)); }
@@ -37,6 +39,8 @@ struct CameraLens
 	bool Samples_Lens() const { return spec.enabled && !Shows() && !lens.IsPinhole(); }
 	/// The picture is traced in a first pass and shown in a second.
 	bool Denoises() const { return denoised && Samples_Lens() && !pilot; }
+	/// A view of width x height pixels begins, of which left..right, top..bottom (inclusive) are rendered.
+	void Begin_Picture(int width, int height, int left, int top, int right, int bottom);
 	/// The preview of focus is asked for instead of the picture.
 	bool Shows() const { return spec.show_focus || spec.show_plane; }
 };

@@ -8,6 +8,8 @@
 #include "backend/math/matrices.h"
 #include "backend/scene/camera.h"
 #include "backend/tilt_lens/camera_vectors.h"
+#include "backend/tilt_lens/denoised_picture.h"
+#include "backend/tilt_lens/pilot_queue.h"
 
 // this must be the last file included
 #include "base/povdebug.h"
@@ -47,6 +49,19 @@ void Camera::Transform_Tilt_Lens(const TRANSFORM *Trans)
 			points[i]->value = From_Vector(v);
 		}
 	}
+}
+
+}
+
+namespace tilt_lens
+{
+
+void CameraLens::Begin_Picture(int width, int height, int left, int top, int right, int bottom)
+{
+	if(Denoises())
+		denoised->Begin(width, height, left, top, right, bottom);
+	if(pilot_queue)
+		pilot_queue->Begin(width, height, left, top, right, bottom);
 }
 
 }

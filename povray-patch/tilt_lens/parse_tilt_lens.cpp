@@ -4,6 +4,7 @@
 // reserved: they are identifiers to the tokenizer and are told apart here, so
 // that scenes which use focal_length or shift as names of their own still parse.
 
+#include <cctype>
 #include <cstdlib>
 
 // frame.h must always be the first POV file included (pulls in platform config)
@@ -14,7 +15,9 @@
 #include "backend/scene/camera.h"
 #include "backend/tilt_lens/camera_vectors.h"
 #include "backend/tilt_lens/denoised_picture.h"
+#include "backend/tilt_lens/pilot_queue.h"
 #include "backend/tilt_lens/tile_borders.h"
+#include "lens/effects.h"
 #include "lens/words.h"
 
 // this must be the last file included
@@ -44,7 +47,11 @@ void Parser::Parse_Tilt_Lens(Camera& New)
 	Get_Token();
 	Unget_Token();
 	if (Token.Token_Id != LEFT_CURLY_TOKEN)
+	{
+		if ((Token.Token_Id == IDENTIFIER_TOKEN) && (tilt_lens::FindWord(Token.Token_String) != NULL))
+			Error("tilt_lens: the { of its block is missing before '%s'.", Token.Token_String);
 		return;
+	}
 
 	Parse_Begin();
 	while (true)
@@ -70,11 +77,11 @@ void Parser::Parse_Tilt_Lens_Word(Camera& New)
 	// A name that the scene has declared arrives as that value's token.
 	const bool is_name = (Token.Token_Id == IDENTIFIER_TOKEN) || (Token.Data != NULL);
 	if (!is_seed && !is_name)
-		Expectation_Error(tilt_lens::ListOfWords().c_str());
+		Refuse_Tilt_Lens_Token();
 	const std::string word(is_seed ? tilt_lens::NameOf(Word::Seed) : Token.Token_String);
 	const tilt_lens::WordRow *row = tilt_lens::FindWord(word);
 	if (row == NULL)
-		Error("Unknown word '%s' in the tilt_lens block; the words are %s.", word.c_str(), tilt_lens::ListOfWords().c_str());
+		Error("tilt_lens: %s", tilt_lens::AdviceOn(word).c_str());
 
 	if (row->number != NULL)
 	{
@@ -88,10 +95,10 @@ void Parser::Parse_Tilt_Lens_Word(Camera& New)
 	{
 		case Word::FocalPlane:
 			Refuse_Tilt_Lens_Word_Twice(spec.focal_plane_point.given, row->id);
-			Parse_Vector(v);
+			Parse_Tilt_Lens_Vector(v, 3, row->id);
 			spec.focal_plane_point = From_Vector(v);
 			Parse_Comma();
-			Parse_Vector(v);
+			Parse_Tilt_Lens_Vector(v, 3, row->id);
 			spec.focal_plane_normal = From_Vector(v);
 			break;
 		case Word::FocalPoints:
@@ -100,13 +107,13 @@ void Parser::Parse_Tilt_Lens_Word(Camera& New)
 			{
 				if (i > 0)
 					Parse_Comma();
-				Parse_Vector(v);
+				Parse_Tilt_Lens_Vector(v, 3, row->id);
 				spec.focal_points[i] = From_Vector(v);
 			}
 			break;
 		case Word::Shift:
 			Refuse_Tilt_Lens_Word_Twice(spec.shift.given, row->id);
-			Parse_UV_Vect(uv);
+			Parse_Tilt_Lens_Vector(uv, 2, row->id);
 			spec.shift = Vec3d{ uv[U], uv[V], 0.0 };
 			break;
 		case Word::Distortion:
@@ -133,11 +140,74 @@ void Parser::Parse_Tilt_Lens_Word(Camera& New)
 	}
 }
 
+/// What is no word at all: one of POV-Ray's own, or a sign.
+void Parser::Refuse_Tilt_Lens_Token()
+{
+	if (Token.Token_Id == SEMI_COLON_TOKEN)
+		Error("tilt_lens: no ';' stands between the words of the block.");
+	if (Token.Token_Id == COMMA_TOKEN)
+		Error("tilt_lens: one value too many, or a ',' between words: words are told apart by their names alone.");
+	if ((Token.Token_String != NULL) && (isalpha(Token.Token_String[0])))
+		Error("tilt_lens: %s", tilt_lens::AdviceOn(Token.Token_String).c_str());
+	Expectation_Error(("'}' or one of the words of tilt_lens: " + tilt_lens::ListOfWords()).c_str());
+}
+
+/// A vector of as many terms. A number, which would stand for all of them, is but a slip here;
+/// 0 is not.
+void Parser::Parse_Tilt_Lens_Vector(DBL *v, int terms, tilt_lens::Word word)
+{
+	EXPRESS express;
+	const int found = Parse_Unknown_Vector(express);
+
+	if ((found == 1) && (express[0] == 0.0))
+		express[1] = express[2] = 0.0;
+	else if (found == 1)
+		Error("tilt_lens: %s takes %s, but %g is a number.", tilt_lens::NameOf(word).c_str(),
+		      terms == 2 ? "a vector such as <0, 1>" : "vectors such as <0, 1, 5>", express[0]);
+	else if (found != terms)
+		Error("tilt_lens: %s takes %s, but this one has %d terms.", tilt_lens::NameOf(word).c_str(),
+		      terms == 2 ? "a vector such as <0, 1>" : "vectors such as <0, 1, 5>", found);
+	for (int i = 0; i < terms; i++)
+		v[i] = express[i];
+}
+
+/// POV-Ray's own blur_samples [MIN,] MAX. Its numbers go into an int, which more would overflow.
+void Parser::Parse_Tilt_Lens_Blur_Samples(Camera& New)
+{
+	const DBL most = 1 << 30;
+	DBL samples[2];
+
+	samples[0] = Parse_Float();
+	Parse_Comma();
+	samples[1] = Allow_Float(0.0);
+	for (int i = 0; i < 2; i++)
+		if (!((samples[i] >= 1.0) && (samples[i] <= most)) && ((i == 0) || (samples[i] != 0.0)))
+			Error("Illegal number of focal blur samples: %g. With tilt_lens it must lie between 1 and %.0f.", samples[i], most);
+	if ((samples[1] != 0.0) && (samples[0] > samples[1]))
+		Error("Focal blur samples minimum must not be larger than maximum.");
+	New.Blur_Samples_Min = samples[1] != 0.0 ? int(samples[0]) : 0;
+	New.Blur_Samples = samples[1] != 0.0 ? int(samples[1]) : int(samples[0]);
+}
+
 /// Refuses a word that has been given already.
 void Parser::Refuse_Tilt_Lens_Word_Twice(bool given, tilt_lens::Word word)
 {
 	if (given)
 		Error("tilt_lens: %s is given twice.", tilt_lens::NameOf(word).c_str());
+}
+
+/// Says which words do nothing, and what a picture file would lose.
+void Parser::Warn_Of_Idle_Tilt_Lens_Words(const Camera& New)
+{
+	const tilt_lens::TiltLens& lens = New.Tilt_Lens.lens;
+	const std::string idle = tilt_lens::IdleWords(New.Tilt_Lens.spec, lens);
+
+	if (!idle.empty())
+		Warning(0, "tilt_lens: without an aperture everything is sharp, and this does nothing: %s.\n"
+		           "Give aperture_diameter or f_stop, or leave it out.", idle.c_str());
+	if (sceneData->outputAlpha && (sceneData->defaultFileType != kPOVList_FileType_OpenEXR) && (lens.splits || lens.bokeh))
+		Warning(0, "tilt_lens: colours that part at the edge of what is transparent are brighter than their alpha,\n"
+		           "which this file format clips. Write OpenEXR (+FE), or render without alpha (-UA).");
 }
 
 /// The lens from the words and the camera's final vectors; parse errors for
@@ -163,6 +233,7 @@ void Parser::Resolve_Tilt_Lens(Camera& New)
 		           width, New.Tilt_Lens.lens.image_distance,
 		           2.0 * atan2(0.5 * width, New.Tilt_Lens.lens.image_distance) / M_PI_180);
 	}
+	Warn_Of_Idle_Tilt_Lens_Words(New);
 	if (New.Tilt_Lens.Samples_Lens() && (New.Blur_Samples <= 0))
 		New.Blur_Samples = Default_Blur_Samples;
 	New.Tilt_Lens.levels = tilt_lens::SampleLevels(New.Blur_Samples_Min, New.Blur_Samples, New.Variance, New.Confidence, &chdtri);
@@ -170,6 +241,8 @@ void Parser::Resolve_Tilt_Lens(Camera& New)
 	if (New.Tilt_Lens.spec.denoise)
 		New.Tilt_Lens.denoised = boost::shared_ptr<tilt_lens::DenoisedPicture>(new tilt_lens::DenoisedPicture());
 	New.Tilt_Lens.pilot = tilt_lens::ParsePilotRequest(getenv(tilt_lens::PilotVariable));
+	if (New.Tilt_Lens.pilot)
+		New.Tilt_Lens.pilot_queue = boost::shared_ptr<tilt_lens::PilotQueue>(new tilt_lens::PilotQueue(New.Tilt_Lens.pilot));
 }
 
 }

@@ -12,7 +12,9 @@
 #include "backend/colour/colour.h"
 #include "backend/math/vector.h"
 #include "backend/render/tracepixel.h"
+#include "backend/parser/parse.h"
 #include "lens/pilot.h"
+#include "backend/tilt_lens/pilot_queue.h"
 #include "backend/tilt_lens/sample_sums.h"
 
 // this must be the last file included
@@ -40,40 +42,99 @@ static void Append_To_Pilot_File(const std::string& file, const std::string& tex
 	std::ofstream(file.c_str(), std::ios::app) << text << std::flush;
 }
 
-/// In place of TraceTiltLensTile: the blocks of the pilot that begin in this tile, and
-/// black elsewhere. Blocks at tile edges belong to the tile of their first pixel.
+/// In place of TraceTiltLensTile: as many blocks of the pilot as begin in this tile, from
+/// anywhere in the picture, which itself stays black.
 void TracePixel::TraceTiltLensPilot(int left, int top, int right, int bottom, int width, int height, vector<Colour>& colours)
 {
-	const tilt_lens::PilotRequest& request = camera.Tilt_Lens.pilot;
-	const vector<bool> chosen = tilt_lens::PilotBlocks(request, width, height);
-	const int columns = (width + PilotBlockSize - 1) / PilotBlockSize;
-
 	for(int y = (top + PilotBlockSize - 1) / PilotBlockSize * PilotBlockSize; y <= bottom; y += PilotBlockSize)
 		for(int x = (left + PilotBlockSize - 1) / PilotBlockSize * PilotBlockSize; x <= right; x += PilotBlockSize)
 		{
-			if(!chosen[(y / PilotBlockSize) * columns + x / PilotBlockSize])
-				continue;
-			const int w = min(PilotBlockSize, width - x), h = min(PilotBlockSize, height - y);
-			vector<vector<PilotLevel> > pixels;
-			const DBL start = Thread_Seconds();
-
-			for(int i = 0; i < w * h; i++)
-			{
-				TilePixel pixel(x + i % w, y + i / w, camera.Tilt_Lens.Seed());
-				pixels.push_back(vector<PilotLevel>());
-				for(int n = 1; n <= request.samples; n *= 2)
-				{
-					SampleTiltLensPixel(pixel, n, width, height);
-					const Colour mean = pixel.sums.Mean();
-					const PilotLevel level = { n, { mean.red(), mean.green(), mean.blue() }, n > 1 ? pixel.sums.Variance() : 0.0 };
-					pixels.back().push_back(level);
-				}
-				threadData->tiltLensCounts.AddPixel(pixel.sums.count, pixel.sums.Changes());
-				cooperate();
-			}
-			Append_To_Pilot_File(request.file, tilt_lens::PilotText(x, y, w, h, Thread_Seconds() - start, pixels));
+			int block_x, block_y;
+			if(camera.Tilt_Lens.pilot_queue->Next(block_x, block_y))
+				TraceTiltLensPilotBlock(block_x, block_y, width, height);
 		}
 	colours.resize(size_t(right - left + 1) * (bottom - top + 1), Colour(0.0));
+}
+
+void TracePixel::TraceTiltLensPilotBlock(int x, int y, int width, int height)
+{
+	const tilt_lens::PilotRequest& request = camera.Tilt_Lens.pilot;
+	const int w = min(PilotBlockSize, width - x), h = min(PilotBlockSize, height - y);
+	const int rays = camera.Tilt_Lens.lens.splits ? tilt_lens::Wavelengths : 1;     // a sample
+	vector<vector<PilotLevel> > pixels;
+	const DBL start = Thread_Seconds();
+
+	for(int i = 0; i < w * h; i++)
+	{
+		TilePixel pixel(x + i % w, y + i / w, camera.Tilt_Lens.Seed());
+		pixels.push_back(vector<PilotLevel>());
+		for(int n = 1; n <= request.samples; n *= 2)
+		{
+			SampleTiltLensPixel(pixel, n, width, height);
+			const Colour mean = pixel.sums.Mean();
+			const PilotLevel level = { n, { mean.red(), mean.green(), mean.blue() }, n > 1 ? pixel.sums.Variance() : 0.0 };
+			pixels.back().push_back(level);
+		}
+		threadData->tiltLensCounts.AddPixel(pixel.sums.count, pixel.sums.Changes());
+		threadData->tiltLensCounts.AddLight(pixel.sums.count * rays - pixel.sums.stopped, tilt_lens::RareLight(), false);
+		cooperate();
+	}
+	Append_To_Pilot_File(request.file, tilt_lens::PilotText(x, y, w, h, Thread_Seconds() - start, pixels));
+}
+
+/// For #fopen: what tiltcost tries is not to leave traces in the user's files.
+void Parser::Refuse_To_Write_In_Pilot(const UCS2String& file)
+{
+	if(tilt_lens::PilotIsOn() && !tilt_lens::PilotMayWrite())
+		Error("%s: %s", tilt_lens::PilotWritesNothing, UCS2toASCIIString(file).c_str());
+}
+
+}
+
+namespace tilt_lens
+{
+
+PilotQueue::PilotQueue(const PilotRequest& asked) :
+	request(asked), next(0), columns(1), begun(-1.0)
+{
+}
+
+void PilotQueue::Begin(int width, int height, int left, int top, int right, int bottom)
+{
+	const std::vector<int> all = PilotBlocks(request, width, height);
+
+	columns = (width + PilotBlockSize - 1) / PilotBlockSize;
+	blocks.clear();
+	next = 0;
+	begun = -1.0;
+	for(size_t i = 0; i < all.size(); i++)
+	{
+		const int x = all[i] % columns * PilotBlockSize, y = all[i] / columns * PilotBlockSize;
+		if((x >= left) && (x <= right) && (y >= top) && (y <= bottom))
+			blocks.push_back(all[i]);
+	}
+}
+
+double PilotQueue::Seconds()
+{
+	timespec t;
+	clock_gettime(CLOCK_MONOTONIC, &t);
+	return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
+}
+
+bool PilotQueue::Next(int& x, int& y)
+{
+	boost::mutex::scoped_lock lock(mutex);
+	const double now = Seconds();
+
+	if(begun < 0.0)
+		begun = now;
+	if((next == blocks.size()) || ((now - begun > request.seconds) && (next >= size_t(FewestPilotBlocks))))
+		return false;
+	x = blocks[next] % columns * PilotBlockSize;
+	y = blocks[next] / columns * PilotBlockSize;
+	next++;
+	return true;
 }
 
 }

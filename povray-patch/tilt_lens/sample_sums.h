@@ -9,6 +9,7 @@
 
 #include "lens/convergence.h"
 #include "lens/sampler.h"
+#include "lens/statistics.h"
 
 namespace tilt_lens
 {
@@ -24,12 +25,16 @@ struct SampleSums
 	/// Light that vignetting or a bokeh pigment kept back, in samples: what lies behind the
 	/// picture is not darkened with it.
 	double withheld;
+	/// Rays that were not traced, because a rim stops them or the pixel looks behind the lens.
+	int stopped;
+	/// The most red, green or blue of a sample.
+	float brightest;
 
 	/// Mean red, green and blue as they stood at the latest powers of two, latest first.
 	double earlier[ChangesKept + 1][3];
 	int earlier_counts[ChangesKept + 1];
 
-	SampleSums() : count(0), withheld(0.0)
+	SampleSums() : count(0), withheld(0.0), stopped(0), brightest(0.0f)
 	{
 		for(int i = 0; i < Channels; i++)
 			sum[i] = squares[i] = 0.0;
@@ -44,6 +49,7 @@ struct SampleSums
 			sum[i] += c[i];
 			squares[i] += double(c[i]) * double(c[i]);
 		}
+		brightest = std::max(std::max(brightest, c[0]), std::max(c[1], c[2]));
 		count++;
 		if((count & (count - 1)) == 0)
 			KeepMean();
@@ -90,9 +96,32 @@ struct SampleSums
 		c.pixels = 1.0;
 		for(c.changes = 0; (c.changes < ChangesKept) && (earlier_counts[c.changes + 1] > 0); c.changes++)
 			for(int i = 0; i < 3; i++)
-				c.change[c.changes] += Square(Clipped(earlier[c.changes][i]) - Clipped(earlier[c.changes + 1][i])) / 3.0;
+				c.change[c.changes] += Square(SeenChange(i, c.changes)) / 3.0;
 		return c;
 	}
+
+	/// How much a channel's mean changed by the doubling j. Where it is within what a file holds in
+	/// the end, it counts as it is, even if few samples with a bright light among them had been
+	/// beyond: clipping those would hide how fast the means settle.
+	double SeenChange(int channel, int j) const
+	{
+		const double last = earlier[0][channel], change = earlier[j][channel] - earlier[j + 1][channel];
+		return (last >= 0.0) && (last <= 1.0) ? change : Clipped(earlier[j][channel]) - Clipped(earlier[j + 1][channel]);
+	}
+
+	/// The pixel's samples as evidence of rare bright lights.
+	RareLight Rarity() const
+	{
+		RareLight r;
+		const double variance = count > 1 ? Variance() : 0.0;
+		const double above = brightest - std::max(sum[0], std::max(sum[1], sum[2])) / count;
+
+		r.spread = variance / count;
+		// Of k equal bright samples among dark ones each makes a k-th of the spread.
+		r.rests_on_few = above * above * FewBrightSamples > variance * (count - 1) ? r.spread : 0.0;
+		return r;
+	}
+	static constexpr double FewBrightSamples = 2.5;
 
 	/// The same for a pixel that may have stopped early because its few samples agreed
 	/// by chance: a part of what `variance`, that of a sample in the pixels around, lets

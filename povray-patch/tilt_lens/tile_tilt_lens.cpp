@@ -17,6 +17,7 @@
 namespace pov
 {
 
+using tilt_lens::RareLight;
 using tilt_lens::SampleLevel;
 using tilt_lens::TilePixel;
 
@@ -55,12 +56,14 @@ void TracePixel::TraceTiltLensTile(int left, int top, int right, int bottom, int
 	int l = left, t = top, r = right, b = bottom;
 	if(lens.Denoises())
 		lens.denoised->Extend(l, t, r, b);
+	const bool adapts = lens.levels.size() > 1;
+	const int rays = lens.lens.splits ? tilt_lens::Wavelengths : 1;     // a sample
 	tile.reserve((r - l + 1) * (b - t + 1));
 	for(int y = t; y <= b; y++)
 		for(int x = l; x <= r; x++)
 			tile.push_back(TilePixel(x, y, lens.Seed()));
 
-	if(lens.levels.size() > 1)
+	if(adapts)
 		ConvergeTiltLensTile(tile, l, t, r, b, width, height);
 
 	for(vector<TilePixel>::iterator pixel = tile.begin(); pixel != tile.end(); pixel++)
@@ -70,6 +73,7 @@ void TracePixel::TraceTiltLensTile(int left, int top, int right, int bottom, int
 		if((pixel->x >= left) && (pixel->x <= right) && (pixel->y >= top) && (pixel->y <= bottom))
 			colours.push_back(pixel->sums.Mean());
 		threadData->tiltLensCounts.AddPixel(pixel->sums.count, pixel->sums.Changes(pixel->neighbourhood_variance));
+		threadData->tiltLensCounts.AddLight(pixel->sums.count * rays - pixel->sums.stopped, adapts ? pixel->sums.Rarity() : RareLight(), pixel->sums.count < lens.levels.back().samples);
 	}
 	threadData->Stats()[Number_Of_Pixels] += colours.size();
 

@@ -5,6 +5,7 @@
 // frame.h must always be the first POV file included (pulls in platform config)
 #include "backend/frame.h"
 #include "backend/colour/colour.h"
+#include "backend/interior/media.h"
 #include "backend/math/vector.h"
 #include "backend/render/tracepixel.h"
 #include "backend/scene/objects.h"
@@ -43,6 +44,38 @@ void TracePixel::SetupTiltLens()
 	else
 		addTiltLensSample = lens.splits ? &TracePixel::AddTiltLensSample<false, false, true> : &TracePixel::AddTiltLensSample<false, false, false>;
 	tiltLensTouchesInterior = InteriorTouchesTiltLens();
+	tiltLensMedia = NULL;   // tasks make theirs after the tracer: it is asked for later
+	// Made when first asked for, which would be too late to seed them. Subsurface light nests to depth 2.
+	for(int depth = 0; sceneData->useSubsurface && (depth <= 2); depth++)
+	{
+		ssltUniformDirectionGenerator.push_back(GetSubRandomDirectionGenerator(0, 32767));
+		ssltUniformNumberGenerator.push_back(GetRandomDoubleGenerator(0.0, 1.0, 32767));
+		ssltCosWeightedDirectionGenerator.push_back(GetSubRandomCosWeightedDirectionGenerator(2, 32767));
+	}
+}
+
+template<class Type>
+static void Seed_Generators(vector<shared_ptr<SequentialNumberGenerator<Type> > >& generators, size_t seed)
+{
+	for(size_t i = 0; i < generators.size(); i++)
+		if(SeedableNumberGenerator<Type> *generator = dynamic_cast<SeedableNumberGenerator<Type> *>(generators[i].get()))
+			generator->Seed(seed);
+}
+
+/// Sets where every pseudo-random sequence that rays draw from goes on: jitter of area lights
+/// and media, crand, rainbows, subsurface light. Each thread has its own, so that without this
+/// a pixel would depend on what its thread traced before.
+void TracePixel::SeedRandomNumbersOfTiltLens(unsigned int seed)
+{
+	crandRandomNumberGenerator = seed;
+	randomNumberGenerator.SetSeed(seed);
+	if(tiltLensMedia == NULL)
+		tiltLensMedia = dynamic_cast<MediaFunction *>(&media);
+	if(tiltLensMedia != NULL)
+		tiltLensMedia->SeedRandomNumbers(seed);
+	Seed_Generators(ssltUniformDirectionGenerator, seed);
+	Seed_Generators(ssltUniformNumberGenerator, seed);
+	Seed_Generators(ssltCosWeightedDirectionGenerator, seed);
 }
 
 /// Whether the box of an object reaches the lens.
@@ -158,7 +191,7 @@ bool TracePixel::SendRayThroughTiltLensWithEffects(Ray& ray)
 /// arrives: `c`, transparency too, is multiplied by that. A ray of which nothing arrives is
 /// not traced.
 template<bool Weighs, bool Paints>
-DBL TracePixel::TraceTiltLensRay(Ray& ray, Colour& c, DBL x, DBL y, DBL width, DBL height)
+DBL TracePixel::TraceTiltLensRay(Ray& ray, tilt_lens::SampleSums& sums, Colour& c, DBL x, DBL y, DBL width, DBL height)
 {
 	DBL weight = 1.0;
 	Colour paint;
@@ -169,6 +202,7 @@ DBL TracePixel::TraceTiltLensRay(Ray& ray, Colour& c, DBL x, DBL y, DBL width, D
 	{
 		// No ray, where the pixel looks along or behind the lens: empty, transparent.
 		c = Colour(0.0, 0.0, 0.0, 0.0, 1.0);
+		sums.stopped++;
 		return 1.0;
 	}
 	c.clear();
@@ -176,11 +210,16 @@ DBL TracePixel::TraceTiltLensRay(Ray& ray, Colour& c, DBL x, DBL y, DBL width, D
 		weight = tiltLensWeight;
 	if(Paints && (weight > 0.0))
 	{
-		paint = tilt_lens::BokehAt(camera.Bokeh, tiltLensPoint, threadData) / camera.Tilt_Lens.bokeh_mean;
+		paint = tilt_lens::BokehAt(camera.Bokeh, tiltLensPoint, threadData);
+		for(int i = 0; i < 3; i++)
+			paint[i] *= camera.Tilt_Lens.bokeh_gain[i];
 		weight *= paint.greyscale();
 	}
 	if(Weighs && !(weight > 0.0))
+	{
+		sums.stopped++;
 		return 0.0;
+	}
 
 	Trace::TraceTicket ticket(maxTraceLevel, adcBailout, sceneData->outputAlpha);
 	TraceRay(ray, c, 1.0, ticket, false, camera.Max_Ray_Distance);
@@ -201,14 +240,14 @@ void TracePixel::AddTiltLensSample(Ray& ray, tilt_lens::SampleSums& sums, DBL x,
 	DBL weight = 0.0;
 
 	if(!Splits)
-		weight = TraceTiltLensRay<Weighs, Paints>(ray, c, x, y, width, height);
+		weight = TraceTiltLensRay<Weighs, Paints>(ray, sums, c, x, y, width, height);
 	else
 	{
 		c.clear();
 		for(tiltLensWavelength = 0; tiltLensWavelength < tilt_lens::Wavelengths; tiltLensWavelength++)
 		{
 			Colour one;
-			weight += TraceTiltLensRay<Weighs, Paints>(ray, one, x, y, width, height) / tilt_lens::Wavelengths;
+			weight += TraceTiltLensRay<Weighs, Paints>(ray, sums, one, x, y, width, height) / tilt_lens::Wavelengths;
 			c[tiltLensWavelength] = one[tiltLensWavelength];
 			c[pFILTER] += one[pFILTER] / tilt_lens::Wavelengths;
 			c[pTRANSM] += one[pTRANSM] / tilt_lens::Wavelengths;
@@ -224,6 +263,8 @@ void TracePixel::SampleTiltLensPixel(tilt_lens::TilePixel& pixel, int samples, D
 {
 	Ray ray;
 
+	if(pixel.sums.count < samples)
+		SeedRandomNumbersOfTiltLens(tilt_lens::RandomSeedOfPixel(pixel.x, pixel.y, camera.Tilt_Lens.Seed(), pixel.sums.count));
 	while(pixel.sums.count < samples)
 	{
 		tiltLensSample = pixel.sampler.Next();
@@ -269,6 +310,8 @@ void TracePixel::TraceRayThroughTiltLensCentre(Colour& colour, DBL x, DBL y, DBL
 	tilt_lens::SampleSums sums;
 
 	tiltLensSample = { 0.5, 0.5, 0.5, 0.5 };
+	// Anti-aliasing asks for places between pixels.
+	SeedRandomNumbersOfTiltLens(tilt_lens::RandomSeedOfPixel(int(x * 4096.0), int(y * 4096.0), camera.Tilt_Lens.Seed(), 0));
 	(this->*addTiltLensSample)(ray, sums, x, y, width, height);
 	colour = sums.Mean();
 }

@@ -4,6 +4,7 @@
 
 #include <tiltcal/error.h>
 #include "base/files.h"
+#include "program/process.h"
 #include "program/program.h"
 #include "tiltcost/options.h"
 #include "tiltcost/progress.h"
@@ -26,6 +27,8 @@ using namespace tiltcost;
 /// Before the work starts, not after it.
 void CheckFiles(const Options& options)
 {
+	if (!options.plot.empty() && tiltcal::RunProcess({{"gnuplot", "--version"}}).exit_code != 0)
+		throw tiltcal::FileError(fmt::format("{}: cannot be plotted without gnuplot; install gnuplot-nox, or leave --plot out", options.plot));
 	if (options.job.povray.find('/') != std::string::npos && access(options.job.povray.c_str(), X_OK) != 0)
 		throw tiltcal::FileError(fmt::format("{}: no such program; build the target povray, or give the patched POV-Ray with --povray", options.job.povray));
 	for (const std::string& file : {options.plot, options.csv})

@@ -45,7 +45,7 @@ void Split(int argc, char** argv, std::vector<std::string>& own, std::vector<std
 		const bool option = word.compare(0, 2, "--") == 0;
 		(IsForPovray(word) ? povray : own).push_back(word);
 		// An option's value is the option's, whatever it looks like.
-		if (option && word.find('=') == std::string::npos && word != "--help" && word != "--version" && i + 1 < argc)
+		if (option && word.find('=') == std::string::npos && word != "--help" && word != "--version" && word != "--scene-may-write" && i + 1 < argc)
 			own.emplace_back(argv[++i]);
 	}
 }
@@ -89,7 +89,8 @@ double Positive(const std::string& option, const std::string& text, double (*par
 
 const char Footer[] =
 	"SCENE is a .pov or .ini file; what begins with one + or -, and NAME=value, goes to POV-Ray (+W +H +L Declare=..).\n"
-	"The picture itself is not rendered, and no file of yours is touched.\n"
+	"The picture itself is not rendered, and no file of yours is touched: photons and radiosity are not saved, and a scene that\n"
+	"opens files for writing is refused unless --scene-may-write lets it.\n"
 	"\n"
 	"Example:\n"
 	"  tiltcost scenes/first-tilt/first-tilt.pov +Lscenes/first-tilt +W1920 +H1080 --plot cost.svg\n"
@@ -150,8 +151,9 @@ Options ParseCommandLine(CLI::App& app, int argc, char** argv)
 	app.add_option("--stop-levels", stop, "where it stops paying, in 8-bit levels [0.29]");
 	app.add_option("--plot", options.plot, "write time against error: FILE.svg or FILE.png");
 	app.add_option("--csv", options.csv, "write the table: FILE.csv");
-	app.add_option("--pilot-time", pilot_time, "about how long the pilot render may trace [10s]");
+	app.add_option("--pilot-time", pilot_time, "how long pilots may trace, by the clock: blocks of 16 x 16 pixels that\nhave not begun by then are left out, all but the first 4 [10s]");
 	app.add_option("--pilot-blocks", options.job.most_blocks, "at most so many blocks of 16 x 16 pixels [120]")->check(CLI::Range(1, 1000000));
+	app.add_flag("--scene-may-write", options.job.may_write, "let a scene that opens files for writing (#fopen) do so: it is parsed twice");
 	app.add_option("--povray", options.job.povray, "POV-Ray with tilt_lens [the povray beside tiltcost]");
 
 	// CLI11 takes them from the back.

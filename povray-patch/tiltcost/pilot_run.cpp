@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -60,12 +61,20 @@ private:
 		"(povray-patch/REFERENCE.md has all words)");
 }
 
+double Samples(const std::vector<PilotBlock>& blocks)
+{
+	double samples = 0;
+	for (const PilotBlock& block : blocks)
+		samples += double(block.pixels.size()) * block.pixels[0].back().samples;
+	return samples;
+}
+
 class PilotRenders
 {
 public:
 	PilotRenders(const Job& what, const tiltcal::TemporaryFolder& where) : job(what), folder(where) {}
 
-	PilotRun Run(const PilotPlan& plan, const std::string& title, int number);
+	PilotRun Run(const PilotPlan& plan, double seconds, const std::string& title, int number);
 
 private:
 	std::vector<std::string> Command() const;
@@ -89,10 +98,9 @@ std::string Quoted(const std::string& path)
 std::vector<std::string> PilotRenders::Command() const
 {
 	std::vector<std::string> command = {job.povray};
-	const bool ini = job.scene.find(".ini") != std::string::npos;
-	command.push_back(ini ? Quoted(job.scene) : "+I" + Quoted(job.scene));
+	command.push_back(IsIniFile(job.scene) ? Quoted(job.scene) : "+I" + Quoted(job.scene));
 	command.insert(command.end(), job.options.begin(), job.options.end());
-	for (const char* option : {"-D", "-P", "-C", "-A", "+SP1", "+EP1", "+V", "+GA"})
+	for (const char* option : {"-D", "-P", "-C", "-A", "+SP1", "+EP1", "+V", "+GA", "-RFO"})
 		command.emplace_back(option);
 	command.push_back("+O" + Quoted(folder.File("picture")));
 	return command;
@@ -114,7 +122,7 @@ bool PilotRenders::Watch(double seconds)
 		std::sscanf(said.c_str() + at, "Rendered %lf of %lf", &rendered, &all) != 2 || rendered < all / 2;
 }
 
-PilotRun PilotRenders::Run(const PilotPlan& plan, const std::string& title, int number)
+PilotRun PilotRenders::Run(const PilotPlan& plan, double seconds, const std::string& title, int number)
 {
 	const std::string file = folder.File(fmt::format("pilot{}", number)), log = folder.File(fmt::format("log{}", number));
 	pilot = std::make_unique<Growing>(file);
@@ -122,9 +130,11 @@ PilotRun PilotRenders::Run(const PilotPlan& plan, const std::string& title, int 
 	done = 0;
 	wanted = plan.blocks;
 	progress.Begin(title);
-	const tiltcal::ProcessResult result = tiltcal::RunProcess(
-		{Command(), "", {fmt::format("{}={},{},{}", tilt_lens::PilotVariable, plan.blocks, plan.samples, file)}, "", log},
-		[this](double seconds) { return Watch(seconds); });
+	std::vector<std::string> environment = {fmt::format("{}={},{},{:g},{}", tilt_lens::PilotVariable, plan.blocks, plan.samples, seconds, file)};
+	if (job.may_write)
+		environment.push_back(fmt::format("{}=1", tilt_lens::PilotWritesVariable));
+	const tiltcal::ProcessResult result = tiltcal::RunProcess({Command(), "", environment, "", log},
+		[this](double elapsed) { return Watch(elapsed); });
 	progress.End();
 
 	PilotRun run;
@@ -132,20 +142,36 @@ PilotRun PilotRenders::Run(const PilotPlan& plan, const std::string& title, int 
 	run.log = ReadRenderLog(said);
 	if (result.exit_code == 126 || result.exit_code == 127)
 		throw tiltcal::FileError(fmt::format("{}: cannot be run; give the patched POV-Ray with --povray", job.povray));
+	if (run.log.writes)
+		throw tiltcal::Refused(fmt::format("{} opens a file for writing, and tiltcost parses it twice, before you render it. "
+			"If that does no harm, let it with --scene-may-write:\n{}", job.scene, ErrorLines(said)));
 	if (result.exit_code != 0 && !result.stopped)
 		throw tiltcal::Refused(fmt::format("POV-Ray does not render {}:\n{}", job.scene, ErrorLines(said)));
 	run.blocks = ParsePilot(Contents(file));
 	if (run.blocks.empty())
 		NoTiltLens(run.log);
-	const double trace = TraceSeconds(run.blocks);
+	const double trace = TraceSeconds(run.blocks), samples = Samples(run.blocks);
 	run.wall = result.wall;
 	run.machine.threads = run.log.threads;
 	run.machine.pixels = run.log.pixels;
+	if (run.log.camera_rays > 0 && samples > 0)
+		run.machine.rays_per_sample = run.log.camera_rays / samples;
 	run.machine.start_cpu = std::max(0.0, result.cpu - trace);
 	run.machine.start_wall = std::max(0.0, result.wall - trace / run.log.threads);
 	return run;
 }
 
+}
+
+bool IsIniFile(const std::string& scene)
+{
+	std::string name = scene;
+	const size_t section = name.rfind('[');
+	if (!name.empty() && name.back() == ']' && section != std::string::npos)
+		name.resize(section);
+	std::string suffix = std::filesystem::path(name).extension().string();
+	std::transform(suffix.begin(), suffix.end(), suffix.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+	return suffix == ".ini";
 }
 
 PilotPlan PlanPilot(double seconds_per_sample, int threads, double seconds, int most_blocks)
@@ -165,9 +191,11 @@ PilotPlan PlanPilot(double seconds_per_sample, int threads, double seconds, int 
 PilotRun RunPilots(const Job& job, const tiltcal::TemporaryFolder& folder)
 {
 	PilotRenders renders(job, folder);
-	const PilotRun tiny = renders.Run(TinyPilot, "first pilot", 1);
-	const PilotPlan plan = PlanPilot(SecondsPerSample(tiny.blocks), tiny.machine.threads, job.pilot_seconds, job.most_blocks);
-	PilotRun run = renders.Run(plan, "pilot render", 2);
+	const PilotRun tiny = renders.Run(TinyPilot, job.pilot_seconds, "first pilot", 1);
+	// What is planned is bounded too: the processors may be busy with other work, or fewer than threads.
+	const double left = std::max(0.1 * job.pilot_seconds, job.pilot_seconds - (tiny.wall - tiny.machine.start_wall));
+	const PilotPlan plan = PlanPilot(SecondsPerSample(tiny.blocks), tiny.machine.threads, left, job.most_blocks);
+	PilotRun run = renders.Run(plan, left, "pilot render", 2);
 	run.wall += tiny.wall;
 	// Both started the same way; the first wrote less, and the machine may have been busy in either.
 	run.machine.start_cpu = std::min(run.machine.start_cpu, tiny.machine.start_cpu);

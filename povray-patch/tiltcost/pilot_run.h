@@ -23,8 +23,9 @@ struct Job
 	std::string povray;                 ///< the patched program
 	std::string scene;                  ///< .pov or .ini, as POV-Ray is to see it
 	std::vector<std::string> options;   ///< POV-Ray's own
-	double pilot_seconds = 10;          ///< wall time for the larger pilot's samples
+	double pilot_seconds = 10;          ///< wall time for which both pilots together may begin blocks
 	int most_blocks = 120;
+	bool may_write = false;             ///< the scene's own #fopen .. write and append
 };
 
 struct PilotPlan
@@ -44,7 +45,12 @@ struct RenderLog
 	int threads = 1;
 	bool radiosity = false, photons = false;
 	bool pinhole = false;               ///< a tilt_lens with aperture 0
+	double camera_rays = 0;             ///< of the lens, all together
+	bool writes = false;                ///< it was refused because its scene writes files
 };
+
+/// Whether POV-Ray is to be given `scene` as an ini file, FILE.ini or FILE.ini[SECTION], not as a scene.
+bool IsIniFile(const std::string& scene);
 
 RenderLog ReadRenderLog(const std::string& log);
 

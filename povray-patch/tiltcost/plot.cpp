@@ -104,7 +104,8 @@ void WritePlot(const Report& report, const std::string& file)
 	if (!report.own.empty())
 		add(report.own, "1:2 with points pt 2 ps 1.4 lw 2 lc rgb '#2a8a3a' title 'the settings asked for'");
 	script += plots + "\n" + data;
-	tiltcal::Plot(file, script, 860, 560);
+	if (!tiltcal::Plot(file, script, 860, 560))
+		throw tiltcal::FileError(fmt::format("{}: not plotted; gnuplot failed", file));
 }
 
 }

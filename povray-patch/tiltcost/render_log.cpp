@@ -4,6 +4,8 @@
 
 #include "tiltcost/pilot_run.h"
 
+#include "lens/pilot.h"
+
 #include <cstdio>
 #include <cstdlib>
 #include <sstream>
@@ -47,9 +49,20 @@ RenderLog ReadRenderLog(const std::string& log)
 			tracing = true;
 		if (tracing && std::sscanf(line.c_str(), " using %d thread", &threads) == 1 && threads > 0)
 			read.threads = threads;
+		const size_t rays = line.find("Camera Rays:");
+		if (rays != std::string::npos)
+			read.camera_rays = std::atof(line.c_str() + rays + 12);
 		if (line.compare(0, 9, "Aperture:") == 0)
 			read.pinhole = Contains(line, "pinhole");
 	}
+	// The console breaks lines at spaces, and indents.
+	std::string words;
+	for (const char c : log)
+		if (c != '\n' && (c != ' ' || words.empty() || words.back() != ' '))
+			words += c;
+		else if (c == '\n' && !words.empty() && words.back() != ' ')
+			words += ' ';
+	read.writes = Contains(words, tilt_lens::PilotWritesNothing);
 	return read;
 }
 

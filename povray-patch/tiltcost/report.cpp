@@ -21,7 +21,7 @@ std::string RowText(const Row& row, char mark)
 	const Prediction& p = row.predicted;
 	const std::string denoised = row.denoised_error > 0 ? fmt::format("{:.5f}", row.denoised_error) : "-";
 	return fmt::format("{} {:>9.5f}{}  {:>7.2f}  {:>8}  {:>8.1f}  {:>8}  {:>12}  {:>12}  {}\n", mark, p.error, p.extrapolated > MuchExtrapolated ? '~' : ' ',
-		p.Levels(), denoised, p.samples_per_pixel, CountText(row.rays), DurationText(row.cpu), DurationText(row.wall), SceneText(row.setting));
+		p.Levels(), denoised, row.rays_per_pixel, CountText(row.rays), DurationText(row.cpu), DurationText(row.wall), SceneText(row.setting));
 }
 
 std::string Quoted(const std::string& text)
@@ -111,10 +111,10 @@ std::string AnswerText(const Row& row)
 {
 	if (row.denoised_error > 0)
 		return fmt::format("{}\n  RMS error {:.5f}; {} rays, {:.1f} per pixel; {} ({} CPU)\n", SceneText(row.setting), row.denoised_error,
-			CountText(row.rays), row.predicted.samples_per_pixel, DurationText(row.wall), DurationText(row.cpu));
+			CountText(row.rays), row.rays_per_pixel, DurationText(row.wall), DurationText(row.cpu));
 	return fmt::format("{}\n", SceneText(row.setting)) + fmt::format("  RMS error {:.5f}{}, {:.2f} 8-bit levels; {} rays, {:.1f} per pixel; {} ({} CPU)\n", row.predicted.error,
 		row.predicted.extrapolated > MuchExtrapolated ? " (extrapolated)" : "", row.predicted.Levels(), CountText(row.rays),
-		row.predicted.samples_per_pixel, DurationText(row.wall), DurationText(row.cpu));
+		row.rays_per_pixel, DurationText(row.wall), DurationText(row.cpu));
 }
 
 std::string CsvText(const Report& report)
@@ -125,7 +125,7 @@ std::string CsvText(const Report& report)
 	{
 		const Prediction& p = row.predicted;
 		text += fmt::format("{},{},{:.6g},{:.4g},{:.6g},{:.5g},{:.5g},{:.5g},{},{},{:.9g},{:.9g},{:.3g},{:.6g}\n", Quoted(report.scene), kind, p.error, p.Levels(), row.rays,
-			p.samples_per_pixel, row.cpu, row.wall, row.setting.min, row.setting.max, row.setting.variance, row.setting.confidence, p.extrapolated, row.denoised_error);
+			row.rays_per_pixel, row.cpu, row.wall, row.setting.min, row.setting.max, row.setting.variance, row.setting.confidence, p.extrapolated, row.denoised_error);
 	};
 	for (size_t i = 0; i < report.rows.size(); ++i)
 		add(report.rows[i], i == stop ? "stops-paying" : "row");

@@ -15,7 +15,8 @@ Row MakeRow(const Pilot& pilot, const Machine& machine, const Setting& setting)
 {
 	Row row{setting, pilot.Predict(setting)};
 	const double trace = row.predicted.seconds_per_pixel * machine.pixels;
-	row.rays = row.predicted.samples_per_pixel * machine.pixels;
+	row.rays_per_pixel = row.predicted.samples_per_pixel * machine.rays_per_sample;
+	row.rays = row.rays_per_pixel * machine.pixels;
 	row.cpu = machine.start_cpu + trace;
 	row.wall = machine.start_wall + trace / machine.threads;
 	return row;

@@ -21,6 +21,7 @@ struct Machine
 	double start_cpu = 0;           ///< seconds before and beside tracing: parsing, photons, output
 	double start_wall = 0;
 	int threads = 1;
+	double rays_per_sample = 1;         ///< three with wavelengths apart, less where rims stop some
 };
 
 /// A row of the table.
@@ -28,7 +29,8 @@ struct Row
 {
 	Setting setting;
 	Prediction predicted;
-	double rays = 0, cpu = 0, wall = 0;     ///< of the whole picture, seconds
+	double rays_per_pixel = 0, rays = 0;    ///< through the lens
+	double cpu = 0, wall = 0;       ///< of the whole picture, seconds
 	double denoised_error = 0;      ///< RMS, with denoise; 0: not asked for
 };
 

@@ -22,13 +22,15 @@ for denoise in 0 1; do
 	for setting in "0 32 0" "0 128 0" "4 64 0.001" "8 256 0.0001"; do
 		set -- $setting
 		picture tested "Declare=Race_Min=$1" "Declare=Race_Max=$2" "Declare=Race_Variance=$3" "Declare=Race_Denoise=$denoise"
-		estimate=$(sed -n 's/Estimated Error: \([0-9.]*\).*/\1/p' tested.ppm.log)
+		estimate=$(sed -n 's/Estimated Error: [>= ]*\([0-9.]*\).*/\1/p' tested.ppm.log)
 		true=$("$compare" rms 1 tested.ppm truth.ppm | sed -n 's/^[^0-9]*\([0-9.][0-9.e-]*\).*/\1/p' | head -1)
 		what="$case, blur_samples $1, $2 variance $3, denoise $denoise"
 		echo "$what $estimate $true" >> figures.txt
 		# 32 points are this sequence's weakest net: pictures of 32 samples are worse than what leads up to them says.
 		least=0.75
 		[ "$2" = 32 ] && least=0.70
+		# A bound may be as low as it likes.
+		grep -q 'Estimated Error: >=' tested.ppm.log && least=0 what="$what, a bound"
 		awk "BEGIN { r = $estimate / $true; printf \"$what: estimated $estimate, true $true, ratio %.2f\n\", r; exit !(r > $least && r < 1.25) }" ||
 			fail "$what: the estimate is off by more than 25 %"
 	done

@@ -155,7 +155,9 @@ double EstimatedError(const fs::path& log)
 {
 	const std::string text = Contents(log), label = "Estimated Error:";
 	const size_t at = text.find(label);
-	return at == std::string::npos ? 0 : std::atof(text.c_str() + at + label.size());
+	// ">= 0.01" where it is a bound.
+	const size_t digit = at == std::string::npos ? at : text.find_first_of("0123456789", at);
+	return digit == std::string::npos ? 0 : std::atof(text.c_str() + digit);
 }
 
 std::vector<Result> CheckScene(const Places& places, const Scene& scene)

@@ -148,11 +148,24 @@ TEST_F(PictureFormats, WhatIsNoFileIsRefusedAtOnce)
 	EXPECT_THAT(Refusal("loop.png"), HasSubstr("cannot be read"));
 	// Told by the content, not by the suffix.
 	EXPECT_EQ(Refusal("png.jpg", Bytes("grey8.png")), "");
-	if (geteuid() == 0)
-		return;   // root reads everything
-	EXPECT_EQ(Refusal("secret.png", Bytes("grey8.png")), "");
+}
+
+// Root reads everything: as root, nobody tries.
+TEST_F(PictureFormats, WhatMayNotBeReadIsRefused)
+{
+	for (const char* const name : { "open.png", "secret.png" })
+		EXPECT_EQ(Refusal(name, Bytes("grey8.png")), "");
+	// Nobody keeps root's group.
+	fs::permissions(folder.Path(), fs::perms::group_exec | fs::perms::others_exec, fs::perm_options::add);
+	fs::permissions(At("open.png"), fs::perms::group_read | fs::perms::others_read, fs::perm_options::add);
 	fs::permissions(At("secret.png"), fs::perms::none);
-	EXPECT_THAT(Refusal("secret.png"), HasSubstr("ermission"));
+	const bool root = geteuid() == 0;
+	const uid_t nobody = 65534;
+	ASSERT_EQ(root ? seteuid(nobody) : 0, 0);
+	const std::string open = Refusal("open.png"), secret = Refusal("secret.png");
+	ASSERT_EQ(root ? seteuid(0) : 0, 0);
+	EXPECT_EQ(open, "") << "the file's permission, not the folder's";
+	EXPECT_THAT(secret, HasSubstr("ermission"));
 }
 
 TEST_F(PictureFormats, WhatIsNoLightIsRefused)

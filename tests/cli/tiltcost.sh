@@ -47,7 +47,14 @@ bad_values)
 no_povray) scene s.pov "$lens"; povray=./nowhere; refuses 3 "nowhere: no such program" s.pov ;;
 unwritable)
 	scene s.pov "$lens"; : >blocked
-	refuses 3 blocked s.pov --csv blocked/table.csv; refuses 3 nowhere s.pov --plot nowhere/plot.svg ;;
+	refuses 3 blocked s.pov --csv blocked/table.csv; refuses 3 nowhere s.pov --plot nowhere/plot.svg
+	# A folder that one may not write into; root may, so nobody tries.
+	mkdir locked; chmod 555 locked; chmod 777 tmp; as=
+	[ "$(id -u)" -ne 0 ] || as="setpriv --reuid=65534 --regid=65534 --clear-groups"
+	$as test -x "$tiltcost" -a -x "$povray" || { echo "SKIPPED: nobody cannot reach $tiltcost, and this is root: a locked folder is not tested"; exit 77; }
+	$as "$tiltcost" --povray "$povray" s.pov --csv locked/table.csv >out 2>err
+	[ $? = 3 ] || fail "a locked folder is written into"
+	says "locked/table.csv: cannot be written"; silent ;;
 table)
 	scene s.pov "$lens"
 	expect 0 s.pov $small --csv table.csv --plot plot.svg --setting 16,64,0.0001
@@ -55,7 +62,7 @@ table)
 	prints "= .*blur_samples 16, 64  variance 0.0001"
 	grep -q '^"s.pov",own,' table.csv || fail "no row of its own in the CSV"
 	[ "$(head -1 table.csv | tr -cd , | wc -c)" = "$(tail -1 table.csv | tr -cd , | wc -c)" ] || fail "the CSV's rows are ragged"
-	[ ! -e plot.svg ] || grep -q '<svg' plot.svg || fail "the plot is no SVG"
+	grep -q '<svg' plot.svg || fail "there is no plot, or it is no SVG"
 	# What POV-Ray would have written for itself.
 	[ ! -e s.png ] || fail "the user's picture was written" ;;
 questions)
@@ -73,6 +80,57 @@ own_picture)
 ini)
 	scene s.pov "$lens"; printf 'Input_File_Name=s.pov\nWidth=64\nHeight=48\nDeclare=Colour=0.3\n' >s.ini
 	expect 0 s.ini +WT1 --pilot-time 0.5s; prints "64 x 48" ;;
+ini_in_path)
+	# A path that contains ".ini" is not an ini file for that; and an ini file may lie in such a folder.
+	mkdir my.ini.d; scene my.ini.d/s.pov "$lens"; printf 'Input_File_Name=my.ini.d/s.pov\nWidth=64\nHeight=48\n' >my.ini.d/s.ini
+	expect 0 my.ini.d/s.pov $small --error 0.02; prints "^blur_samples"
+	expect 0 my.ini.d/s.ini +WT1 --pilot-time 0.5s; prints "64 x 48" ;;
+no_plot)
+	# Without gnuplot no plot can be made: said before the work, and an error.
+	scene s.pov "$lens"; mkdir bin; for tool in sh cat; do ln -s "$(command -v $tool)" bin; done
+	path=$PATH; PATH=$work/bin
+	"$tiltcost" --povray "$povray" s.pov $small --plot plot.svg >out 2>err
+	got=$?; PATH=$path
+	[ $got = 3 ] || fail "exit code $got, expected 3"
+	says "install gnuplot-nox"; silent
+	# One that fails: no plot, no success.
+	printf '#!/bin/sh\n[ "$1" = --version ]\n' >bin/gnuplot; chmod +x bin/gnuplot; PATH=$work/bin:$path
+	refuses 3 "plot.svg: not plotted" s.pov $small --plot plot.svg
+	PATH=$path
+	[ ! -e plot.svg ] || fail "a plot is left" ;;
+writes)
+	# A scene that writes files is not parsed twice unasked, and what it would have overwritten stays.
+	for how in write append; do
+		scene s.pov "$lens"; printf '#fopen Log "log.txt" %s\n#write (Log, "parsed\\n")\n#fclose Log\n' $how >>s.pov
+		echo precious >log.txt
+		refuses 1 "opens a file for writing" s.pov $small --error 0.02; says "scene-may-write"; says log.txt
+		[ "$(cat log.txt)" = precious ] || fail "log.txt was written"
+	done
+	expect 0 s.pov $small --error 0.02 --scene-may-write; prints "^blur_samples"
+	[ "$(grep -c parsed log.txt)" = 2 ] || fail "log.txt is not written twice: $(cat log.txt)"
+	# Reading is no writing.
+	scene s.pov "$lens"; echo '1, 2' >numbers.txt; printf '#fopen In "numbers.txt" read\n#read (In, A, B)\n#fclose In\n' >>s.pov
+	expect 0 s.pov $small --error 0.02; prints "^blur_samples" ;;
+keeps)
+	# Photons and radiosity that the scene or the user's options save stay as they are.
+	scene s.pov "$lens"; echo 'global_settings { photons { count 2000 save_file "caustics.ph" } } sphere { <1, 0, -1>, 0.4 pigment { rgbt 1 } interior { ior 1.5 } photons { target refraction on } }' >>s.pov
+	echo precious >caustics.ph; echo precious >light.rca
+	expect 0 s.pov $small --error 0.02 +RFO +RFlight.rca
+	[ "$(cat caustics.ph)" = precious ] || fail "caustics.ph was overwritten"
+	[ "$(cat light.rca)" = precious ] || fail "light.rca was overwritten"
+	# Which a render does overwrite.
+	"$povray" s.pov -D +W8 +H6 +Os.png >log.txt 2>&1 || fail "the scene does not render"
+	[ "$(head -c 8 caustics.ph)" != precious ] || fail "the scene saves no photons: nothing shown" ;;
+pilot_time)
+	# By the clock, also where two threads share one processor: 1 s for both pilots, and what a block lasts that has begun.
+	scene s.pov "$lens"
+	one=$(command -v taskset) && one="$one -c 0"
+	$one "$tiltcost" --povray "$povray" s.pov +W160 +H120 +WT8 --pilot-time 1s >out 2>err || fail "tiltcost on one processor"
+	prints "8 threads"
+	# Wall seconds of both pilots, of which the start was there twice: above them 1 s, and the blocks of 8 threads that were begun, which
+	# were planned as if 8 threads had 8 processors: a pilot of 1024 samples lasts 8 times as long without the bound.
+	sed -n 's/^Pilot: \([0-9]*\) blocks.*, in \([0-9.]*\) s. Before the first ray: \([0-9.]*\) s.*/\1 \2 \3/p' out |
+		awk '{ print "one processor:", $0; exit !(NF == 3 && $1 >= 4 && $2 - 2 * $3 < 3) }' || fail "longer than its time: $(sed -n 2p out)" ;;
 spaces)
 	mkdir "a folder"; scene "a folder/a scene.pov" "$lens"
 	expect 0 "a folder/a scene.pov" $small --error 0.02; prints "^blur_samples" ;;

@@ -75,7 +75,7 @@ class Fuzzer
 			Summary();
 			for (const fs::path& folder : free_folders)
 				fs::remove_all(folder);
-			return failures == 0 ? 0 : 1;
+			return failures == 0 && SawPictures() ? 0 : 1;
 		}
 
 	private:
@@ -147,6 +147,15 @@ class Fuzzer
 				std::printf("%6llu blocks, %.0f s, %d failures\n", static_cast<unsigned long long>(done), Seconds(began), failures);
 			std::fflush(stdout);
 			free_folders.push_back(run.folder);
+		}
+
+		// Blocks that are all refused show nothing: the generator, or the program, has changed.
+		bool SawPictures() const
+		{
+			if (settings.only || counts[int(Outcome::Rendered)] > 0)
+				return true;
+			std::printf("FAILED: no block was rendered\n");
+			return false;
 		}
 
 		void Summary() const

@@ -55,6 +55,40 @@ area_light)
 	scene "$lens" "$blur" "$area"
 	threads_and_strips "$ours" "tilt, blur and area light"
 	;;
+random)
+	# What draws random numbers. Under tilt_lens each pixel's begin with the pixel.
+	random='light_source { <6, 9, -4> rgb <0.5, 0.4, 0.3> area_light <3, 0, 0>, <0, 0, 3>, 4, 4 jitter }
+		sphere { <1.2, 1, 2>, 0.7 pigment { rgb 0.8 } finish { crand 0.4 } }
+		sphere { <-1.4, 1.2, 3>, 1 hollow pigment { rgbt 1 } interior { media { scattering { 1, 0.4 } samples 3 jitter 1 } } }
+		sphere { <0, 0.6, 1>, 0.5 pigment { rgb <0.9, 0.6, 0.5> } finish { subsurface { translucency 0.3 } } interior { ior 1.3 } }'
+	size="+W75 +H51"
+	scene "$lens" 'blur_samples 4, 16 variance 1/1000' "global_settings { subsurface { samples 4, 4 } } $random"
+	whole_and_parts() {
+		render "$ours" whole.ppm scene.pov $size
+		for n in 2 4; do
+			render "$ours" threads.ppm scene.pov $size +WT$n
+			check "random numbers$1, $n threads" "$compare" same whole.ppm threads.ppm
+		done
+		render "$ours" top.ppm scene.pov $size +SR1 +ER20
+		render "$ours" bottom.ppm scene.pov $size +SR21 +ER51
+		check "random numbers$1, rows" "$compare" sum whole.ppm top.ppm bottom.ppm
+	}
+	whole_and_parts ""
+	cp whole.ppm seed0.ppm
+	# They are random: another seed is another grain, and so is each kind's absence.
+	sed 's/tilt_lens {/tilt_lens { seed 1/' scene.pov > seeded.pov
+	render "$ours" seed1.ppm seeded.pov $size
+	check "another seed" "$compare" differ 0.005 seed0.ppm seed1.ppm
+	for word in 4,.4.jitter crand.0.4 jitter.1; do
+		sed "s/\($(echo "$word" | sed 's/4,.4.jitter/4, 4\\) jitter/; s/crand.0.4/\\) crand 0.4/; s/jitter.1/samples 3\\) jitter 1/')/\1/" scene.pov > without.pov
+		cmp -s scene.pov without.pov && fail "the scene has no $word"
+		render "$ours" without.ppm without.pov $size
+		check "$word matters" "$compare" differ 0.0005 seed0.ppm without.ppm
+	done
+	# Without an opening, where the lens moves rays.
+	scene 'tilt_lens { focal_distance 8 distortion -0.05 }' '' "$random"
+	whole_and_parts " of a pinhole"
+	;;
 stock)
 	scene perspective "aperture 0.8 focal_point <0, 1.42, 4.5> blur_samples 37 variance 1/4000 confidence 0.9" "$area"
 	threads_and_strips "$stock" "stock's blur, area light"

@@ -92,6 +92,22 @@ bokeh)
 	# Off the centre the picture would move: the same pigment, half a lens to the side.
 	picture aside "$lens" "blur_samples 512 variance 0 $(echo "$round" | sed 's/translate <0.5/translate <0.9/')"
 	check "is centred" "$compare" differ 0.01 disc.exr aside.exr
+	# Colours stay where the picture is sharp: a wall in focus, under a pigment of two colours, and a hue all over changes nothing. 32768 samples of
+	# the pigment's two halves, of which digital nets take as many; what is left is the mean's 128 x 128 points.
+	wall='#version 3.7; global_settings { assumed_gamma 1 } plane { z, 8 pigment { rgb <0.2, 0.4, 0.6> } finish { emission 1 diffuse 0 ambient 0 } }'
+	for pigment in 'gradient x color_map { [0.5 rgb <1, 0.2, 0.1>] [0.5 rgb <0.2, 1, 0.1>] }' 'rgb <1, 0.5, 0.25>'; do
+		printf '%s\n' "$wall" "camera { tilt_lens { focal_distance 8 aperture_diameter 0.4 } location 0 look_at z blur_samples 64 variance 0 bokeh { pigment { $pigment } } }" > wall.pov
+		render "$ours" wall.ppm wall.pov
+		check "in focus, $pigment" "$compare" all 0.2,0.4,0.6 0,0,119,89 wall.ppm
+	done
+	# A colour that gets through nowhere is gone.
+	sed 's/rgb <1, 0.5, 0.25>/rgb <1, 0, 0>/' wall.pov > red.pov
+	render "$ours" red.ppm red.pov
+	check "red alone" "$compare" all 0.2,0,0 0,0,119,89 red.ppm
+	# What is blurred has the colours apart.
+	picture halves "$lens" "blur_samples 256 variance 0 bokeh { pigment { gradient x color_map { [0.5 rgb <1, 0.2, 0.1>] [0.5 rgb <0.2, 1, 0.1>] } } }"
+	# The samples are the same: what differs is colour. Twice what two sets of 512 samples differ by.
+	check "coloured discs" "$compare" differ 0.005 square.exr halves.exr
 	# Blades cut the pigment's square: white all over is the blades alone, point by point.
 	picture blades "$lens blades 6 rotation 10" 'blur_samples 64 variance 0'
 	picture painted "$lens blades 6 rotation 10" 'blur_samples 64 variance 0 bokeh { pigment { rgb 1 } }'

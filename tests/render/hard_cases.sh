@@ -55,7 +55,70 @@ refusals)
 	refused colours "chromatic lateral 0.7, 0" "$at_origin" "chromatic lateral must lie between -0.5 and 0.5"
 	refused no_pupil "pupil_magnification 0" "$at_origin" "pupil_magnification must lie between 0.01 and 100"
 	refused black_bokeh "focal_distance 9" "$at_origin bokeh { pigment { rgb 0 } }" "the bokeh pigment is black all over the lens"
+	# Slips of writing: what was meant, or where it belongs, not the list of all words.
+	misread typo "focal_distence 5" "$at_origin" "tilt_lens: Unknown word 'focal_distence' in the tilt_lens block; did you mean 'focal_distance'?"
+	misread semicolon "focal_distance 5;" "$at_origin" "tilt_lens: no ';' stands between the words of the block"
+	misread comma "focal_distance 5," "$at_origin" "tilt_lens: one value too many, or a ',' between words"
+	misread inside "location 0" "$at_origin" "'location' belongs outside the tilt_lens block, behind its '}'; is that missing?"
+	misread option "natural" "$at_origin" "'natural' follows the word vignetting"
+	misread unknown "banana 3" "$at_origin" "the words are focal_plane_tilt, lens_tilt"
+	misread scalar "shift 3" "$at_origin" "tilt_lens: shift takes a vector such as <0, 1>, but 3 is a number"
+	misread flat_shift "shift <1, 2, 3>" "$at_origin" "tilt_lens: shift takes a vector such as <0, 1>, but this one has 3 terms"
+	misread scalar_point "focal_plane 3, y" "$at_origin" "tilt_lens: focal_plane takes vectors such as <0, 1, 5>, but 3 is a number"
+	misread scalar_points "focal_points <0, 0, 5>, 3, <2, 0, 7>" "$at_origin" "tilt_lens: focal_points takes vectors"
+	refused not_a_number "focal_distance 1e308 * 10 - 1e308 * 10" "$at_origin" "focal_distance is not a number"
+	where='line 3: Parse Error:'
+	refused many_samples "" "$at_origin blur_samples 4, 1e12" "Illegal number of focal blur samples: 1e+12. With tilt_lens it must lie between 1 and 1073741824"
+	refused no_samples "" "$at_origin blur_samples 0" "Illegal number of focal blur samples: 0"
+	refused samples_swapped "" "$at_origin blur_samples 64, 16" "minimum must not be larger than maximum"
+	where='line 3: Parse Error: tilt_lens:'
+	# Braces.
+	sed 's/tilt_lens {/tilt_lens/' typo.pov > open.pov
+	sed -i 's/distence/distance/' open.pov
+	povray_to "$ours" open.exr open.pov && fail "a missing { is accepted"
+	tr -s '\n ' ' ' < open.exr.log | grep -o "line 2: Parse Error: tilt_lens: the { of its block is missing before 'focal_distance'" || fail "a missing {: $(tail -4 open.exr.log)"
+	printf '%s\n' 'camera { tilt_lens { focal_distance 5' 'location 0 look_at z }' > close.pov
+	povray_to "$ours" close.exr close.pov && fail "a missing } is accepted"
+	tr -s '\n ' ' ' < close.exr.log | grep -o "line 2: Parse Error: tilt_lens: 'location' belongs outside .* is that missing?" || fail "a missing }: $(tail -4 close.exr.log)"
+	# 0 is the origin, as everywhere in POV-Ray.
+	printf '%s\n' 'camera { tilt_lens { focal_plane 0, y shift 0 aperture_diameter 0.1 } location y look_at z }' > zero.pov
+	render "$ours" zero.exr zero.pov +W4 +H3
 	refused two_planes "lens_tilt 3 focal_plane_tilt 3" "$at_origin" "each state the plane of focus; give one of them"
+	;;
+warnings)
+	# warned NAME BLOCK OUTSIDE OPTIONS TEXT...: renders, and the messages have every text; no text: no warning.
+	warned() {
+		name=$1 block=$2 outside=$3 options=$4
+		shift 4
+		printf '%s\n' '#version 3.7; global_settings { assumed_gamma 1 }' "camera { tilt_lens { $block } $at_origin $outside }" 'sphere { z * 9, 2 pigment { rgb 1 } }' > "$name.pov"
+		# $options: words.
+		render "$ours" "$name.exr" "$name.pov" +W4 +H3 $options
+		said=$(tr -s '\n ' ' ' < "$name.exr.log")
+		[ $# -gt 0 ] || { grep -q 'Warning:' "$name.exr.log" && fail "$name: $(grep -A2 Warning: "$name.exr.log")"; }
+		for text in "$@"; do
+			case $said in
+				*"Warning: $text"*) echo "$name: $text" ;;
+				*) fail "$name does not warn '$text'" ;;
+			esac
+		done
+	}
+	idle='tilt_lens: without an aperture everything is sharp, and this does nothing:'
+	warned focus 'show focus' '' '' "$idle show focus."
+	warned smooth 'denoise' '' '' "$idle denoise."
+	warned effects 'blades 5 field_curvature 0.1 chromatic axial 0.1, 0.1' 'bokeh { pigment { rgb 1 } }' '' "$idle field_curvature, blades, bokeh, chromatic axial."
+	warned opening 'denoise blades 5 field_curvature 0.1 aperture_diameter 0.1' 'bokeh { pigment { rgb 1 } }' ''
+	warned at_work 'show plane field_curvature 0.1 chromatic lateral 0.1, 0.1 vignetting natural distortion 0.01 shift <0, 0.1> pupil_magnification 1.1' '' ''
+	# Colours apart from their alpha: only where alpha is written, and not as it is in OpenEXR.
+	fringes='tilt_lens: colours that part at the edge of what is transparent are brighter than their alpha,'
+	warned fringes 'chromatic lateral 0.1, 0.1' '' '+UA +FN' "$fringes"
+	warned exr 'chromatic lateral 0.1, 0.1' '' '+UA +FE'
+	warned opaque 'chromatic lateral 0.1, 0.1' '' '+FN'
+	# A second camera.
+	warned two 'aperture_diameter 0.1' '} camera { location 0 look_at z' '' 'More than one camera in scene. Ignoring previous camera(s).' 'The tilt_lens of the camera before is ignored with it.'
+	printf '%s\n' '#version 3.7; global_settings { assumed_gamma 1 } camera { location 0 } camera { tilt_lens { } location 0 look_at z }' > second.pov
+	render "$ours" second.exr second.pov +W4 +H3
+	grep -q 'More than one camera' second.exr.log || fail "stock's own warning is gone"
+	grep -q 'tilt_lens of the camera before' second.exr.log && fail "the first camera had no tilt_lens"
 	;;
 empty)
 	# The lens plane cuts the picture at y = 1/tan 75 = 0.26795, the window ends at 0.5/1.5 and has 90 rows: rows that

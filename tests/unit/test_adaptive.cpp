@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <random>
+#include <set>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -127,12 +128,13 @@ TEST(Convergence, AgreesWithIndependentSamples)
 
 TEST(Pilot, RequestIsReadOrIgnored)
 {
-	const PilotRequest r = ParsePilotRequest("64,256,/tmp/a,b.txt");
+	const PilotRequest r = ParsePilotRequest("64,256,2.5,/tmp/a,b.txt");
 	EXPECT_TRUE(bool(r));
 	EXPECT_EQ(r.blocks, 64);
 	EXPECT_EQ(r.samples, 256);
+	EXPECT_EQ(r.seconds, 2.5);
 	EXPECT_EQ(r.file, "/tmp/a,b.txt");
-	for(const char *bad : { "", "64", "64,256,", "64,100,f", "0,64,f", "-3,64,f", "64,1,f", "x,y,z" })
+	for(const char *bad : { "", "64", "64,256,", "64,256,1", "64,256,1,", "64,256,0,f", "64,100,1,f", "0,64,1,f", "-3,64,1,f", "64,1,1,f", "x,y,z" })
 		EXPECT_FALSE(bool(ParsePilotRequest(bad))) << bad;
 	EXPECT_FALSE(bool(ParsePilotRequest(nullptr)));
 }
@@ -143,19 +145,22 @@ TEST(Pilot, BlocksAreSpreadOverThePicture)
 	r.blocks = 64;
 	r.samples = 64;
 	const int side = PilotBlockSize;
-	const auto chosen = PilotBlocks(r, 80 * side, 60 * side); // 80 x 60 blocks
-	int count = 0, quadrant[4] = {};
-	for(int y = 0; y < 60; y++)
-		for(int x = 0; x < 80; x++)
-			if(chosen[y * 80 + x])
+	const auto blocks = PilotBlocks(r, 80 * side, 60 * side); // 80 x 60 blocks
+	const auto quadrant = [](int block) { return (block / 80 >= 30) * 2 + (block % 80 >= 40); };
+	EXPECT_EQ(std::set<int>(blocks.begin(), blocks.end()).size(), 64u);
+	int count[4] = {};
+	for(size_t i = 0; i < blocks.size(); i++)
+	{
+		count[quadrant(blocks[i])]++;
+		// However early the pilot's time is up. The sequence's discrepancy at a power of two.
+		for(int q : count)
+			if(i + 1 == 8 || i + 1 == 16 || i + 1 == 64)
 			{
-				count++;
-				quadrant[(y >= 30) * 2 + (x >= 40)]++;
+				EXPECT_NEAR(q, double(i + 1) / 4, 3) << i;
 			}
-	EXPECT_EQ(count, 64);
-	for(int q : quadrant)
-		EXPECT_NEAR(q, 16, 3);
+	}
 	r.blocks = 100000;
-	for(bool b : PilotBlocks(r, 100, 30))
-		EXPECT_TRUE(b);
+	const auto all = PilotBlocks(r, 100, 30); // 7 x 2 blocks
+	EXPECT_EQ(std::set<int>(all.begin(), all.end()).size(), 14u);
+	EXPECT_EQ(all.size(), 14u);
 }

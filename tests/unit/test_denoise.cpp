@@ -166,3 +166,17 @@ TEST(Kernels, RowsAreReflectedAboutTheirEnds)
 	EXPECT_EQ(Reflected(-16, 1), 0);
 	EXPECT_EQ(Reflected(17, 2), 1);
 }
+
+// What REFERENCE.md and LIMITS.md say: 14 floats, 56 bytes a pixel.
+TEST(Denoise, KeepsFourteenFloatsAPixel)
+{
+	NoisyPicture p;
+	p.Resize(10, 7);
+	size_t floats = p.share.size();
+	for(const auto& plane : p.mean)
+		floats += plane.size();
+	for(const auto& plane : p.first)
+		floats += plane.size();
+	floats += 70 * PictureChannels;         // denoised (tilt_lens/denoised_picture.h)
+	EXPECT_EQ(floats * sizeof(float), 70u * 56u);
+}

@@ -82,15 +82,37 @@ TEST(Statistics, TextNamesTheFigures)
 	// Changes of independent samples halve: exponent 1, and the variance is the latest change.
 	RenderCounts a, b;
 	a.AddPixel(16, Halving(1e-6));
+	a.AddLight(48, {}, false);
 	b.AddPixel(64, Halving(3e-6));
+	b.AddLight(50, {}, false);
 	a += b;
 	const TiltLens lens = Resolved(60.0, 90.0, 8.0, 0.5);
 	const std::string text = StatisticsText(lens, CountFocus(lens, Camera, 8, 6, 0, 0, 7, 5), a);
 	EXPECT_THAT(text, HasSubstr("60.000 deg to the sensor, receding towards 90.00 deg"));
 	EXPECT_THAT(text, HasSubstr("Distance:      8 along the axis"));
-	EXPECT_THAT(text, HasSubstr("min 16  mean 40.00  max 64   Camera Rays: 80"));
+	EXPECT_THAT(text, HasSubstr("min 16  mean 40.00  max 64   Camera Rays: 98"));
 	EXPECT_THAT(text, HasSubstr("0.00141 RMS"));          // sqrt(2e-6)
 	EXPECT_THAT(StatisticsText(Resolved(0, 0, 8, 0), {}, {}), HasSubstr("a pinhole"));
+}
+
+// Where pixels stopped early and the spread rests on single bright samples, the estimate is a bound.
+TEST(Statistics, EstimateIsABoundWhereLightMayBeMissed)
+{
+	const TiltLens lens = Resolved(60.0, 90.0, 8.0, 0.5);
+	const auto text = [&](double spread, double few, bool early)
+	{
+		RenderCounts c;
+		c.AddPixel(16, Halving(1e-6));
+		c.AddLight(16, { spread, few }, early);
+		return StatisticsText(lens, CountFocus(lens, Camera, 8, 6, 0, 0, 7, 5), c);
+	};
+	EXPECT_THAT(text(1.0, 0.5, true), HasSubstr("Estimated Error: >= 0.00100 RMS"));
+	EXPECT_THAT(text(1.0, 0.5, true), HasSubstr("  at least: few samples met small bright lights"));
+	for(const std::string& sure : { text(1.0, 0.5, false), text(1.0, 0.2, true), text(0.0, 0.0, true) })
+	{
+		EXPECT_THAT(sure, HasSubstr("Estimated Error: 0.00100 RMS"));
+		EXPECT_THAT(sure, testing::Not(HasSubstr("at least")));
+	}
 }
 
 // The blur of the preview against the definition, w d |1/U - 1/z| in pixels.

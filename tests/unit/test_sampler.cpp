@@ -90,6 +90,28 @@ TEST(Sampler, IntegratesAProduct)
 	EXPECT_NEAR(sum / n, exact, 5e-4);
 }
 
+// What README.md and LIMITS.md say of small lights: one on a hundredth of the lens is missed by all 16 samples of all 5 x 5
+// pixels in fewer places than independent samples would miss it in, 0.99^400 = 1.8 %.
+TEST(Sampler, ALightOnAHundredthOfTheLensIsMissedInFewPlaces)
+{
+	const int places = 4000;
+	int missed = 0;
+	for(int place = 0; place < places; place++)
+	{
+		// A square of a hundredth, anywhere.
+		const double left = 0.9 * std::fmod(0.5 + place * 0.7548776662466927, 1.0), low = 0.9 * std::fmod(0.5 + place * 0.5698402909980532, 1.0);
+		bool seen = false;
+		for(int pixel = 0; pixel < 25; pixel++)
+			for(const LensSample& s : Samples(5 * (place % 60) + pixel % 5, 5 * (place / 60) + pixel / 5, 16))
+				seen |= s.lens_u >= left && s.lens_u < left + 0.1 && s.lens_v >= low && s.lens_v < low + 0.1;
+		missed += !seen;
+	}
+	// Binomial: 3 sigma.
+	const double bound = std::pow(0.99, 400), sigma = std::sqrt(bound * (1 - bound) / places);
+	EXPECT_LT(missed / double(places), bound + 3 * sigma);
+	EXPECT_GT(missed, 0) << "of 4000 places: the sentence would be too careful";
+}
+
 TEST(Pupil, SquareToDiscPreservesArea)
 {
 	// Rings and sectors must get their share. 2^16 net samples: the count in a region

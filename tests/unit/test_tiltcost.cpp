@@ -231,6 +231,11 @@ TEST(Search, RowsScaleToThePicture)
 	const Pilot pilot(ParsePilot(Flat(0, Side * Side * 16 * 2e-6, 16, 0.5, 0)));
 	const Row row = MakeRow(pilot, Machine{1e6, 3, 4, 8}, Fixed(10));
 	EXPECT_DOUBLE_EQ(row.rays, 1e7);
+	// Three rays a sample, as with chromatic.
+	const Row three = MakeRow(pilot, Machine{1e6, 3, 4, 8, 3}, Fixed(10));
+	EXPECT_DOUBLE_EQ(three.rays, 3e7);
+	EXPECT_DOUBLE_EQ(three.rays_per_pixel, 30);
+	EXPECT_EQ(three.cpu, row.cpu);
 	EXPECT_NEAR(row.cpu, 3 + 20, 1e-9);
 	EXPECT_NEAR(row.wall, 4 + 20.0 / 8, 1e-9);
 }
@@ -287,6 +292,15 @@ TEST(PilotRun, PlanFillsTheTime)
 	EXPECT_EQ(plan.samples, 64);
 }
 
+// By the suffix of the name, not by ".ini" anywhere in the path.
+TEST(PilotRun, IniFilesAreToldByTheirSuffix)
+{
+	for (const char* const ini : {"a.ini", "A.INI", "a.ini[section]", "old.pov/a.ini"})
+		EXPECT_TRUE(IsIniFile(ini)) << ini;
+	for (const char* const scene : {"my.ini.d/a.pov", "a.ini.pov", "a.initial.pov", "ini", "a.pov[x]", ""})
+		EXPECT_FALSE(IsIniFile(scene)) << scene;
+}
+
 TEST(PilotRun, ReadsPovraysMessages)
 {
 	const RenderLog log = ReadRenderLog(
@@ -299,6 +313,13 @@ TEST(PilotRun, ReadsPovraysMessages)
 	EXPECT_EQ(log.pixels, 6400);
 	EXPECT_EQ(log.threads, 4);
 	EXPECT_TRUE(log.photons);
+	EXPECT_FALSE(log.writes);
+	EXPECT_EQ(ReadRenderLog("Samples/Pixel:   min 16  mean 16.00  max 16   Camera Rays: 12288\n").camera_rays, 12288);
+	// As the console breaks it.
+	std::string refused = std::string("File 's.pov' line 2: Parse Error: ") + tilt_lens::PilotWritesNothing + ": log.txt\n";
+	EXPECT_TRUE(ReadRenderLog(refused).writes);
+	refused.replace(refused.find(' ', 60), 1, "\n   ");
+	EXPECT_TRUE(ReadRenderLog(refused).writes);
 	EXPECT_FALSE(log.radiosity);
 	const std::string errors = ErrorLines("Parser Options\nFile 'bad.pov' line 1: Parse Error: No matching } in 'camera'\nFatal error in parser: Cannot parse input.\nRender failed\n");
 	EXPECT_THAT(errors, HasSubstr("line 1: Parse Error"));

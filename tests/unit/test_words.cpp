@@ -118,3 +118,34 @@ TEST(Words, FuzzerSaysEachOfThem)
 	for(const WordRow& row : Words)
 		EXPECT_THAT(scenes, testing::HasSubstr(" " + row.Name() + " ")) << row.Name();
 }
+
+TEST(Words, WhatWasMeantIsFound)
+{
+	EXPECT_EQ(WordLike("focal_distence"), "focal_distance");
+	EXPECT_EQ(WordLike("focal_lenght"), "focal_length");
+	EXPECT_EQ(WordLike("aperture_diametre"), "aperture_diameter");
+	EXPECT_EQ(WordLike("Shift"), "shift");
+	EXPECT_EQ(WordLike("fstop"), "f_stop");
+	EXPECT_EQ(WordLike("focalpoint"), "focal_point");
+	for(const char* const far : { "", "x", "banana", "sphere", "tilt" })
+		EXPECT_EQ(WordLike(far), "") << far;
+	// Each word is nearest to itself, and to itself without its last letter.
+	for(const WordRow& row : Words)
+	{
+		const std::string word = row.word;
+		EXPECT_EQ(WordLike(word), word);
+		const std::string shortened = word.substr(0, word.size() - 1);
+		EXPECT_EQ(WordLike(shortened), word == "focal_points" ? "focal_point" : word);
+	}
+}
+
+TEST(Words, AdviceSaysWhatToDo)
+{
+	EXPECT_THAT(AdviceOn("focal_distence"), testing::HasSubstr("did you mean 'focal_distance'?"));
+	EXPECT_THAT(AdviceOn("focal_distence"), testing::Not(testing::HasSubstr("the words are")));
+	EXPECT_THAT(AdviceOn("location"), testing::HasSubstr("'location' belongs outside the tilt_lens block, behind its '}'; is that missing?"));
+	EXPECT_THAT(AdviceOn("focal_pont"), testing::HasSubstr("'focal_point' belongs outside"));
+	EXPECT_THAT(AdviceOn("natural"), testing::HasSubstr("'vignetting natural'"));
+	EXPECT_THAT(AdviceOn("rotation"), testing::HasSubstr("'blades 5 rotation'"));
+	EXPECT_THAT(AdviceOn("banana"), testing::HasSubstr("the words are " + ListOfWords()));
+}
