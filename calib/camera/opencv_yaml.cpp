@@ -5,6 +5,7 @@
 
 #include <tiltcal/error.h>
 #include "base/files.h"
+#include "base/plain_text.h"
 #include "model/tilt_angles.h"
 
 #include <Eigen/LU>
@@ -58,6 +59,18 @@ struct Tau
 };
 
 Tau TauOfNormal(const Vec3<double>& n) { return { std::atan2(-n.y, std::hypot(n.x, n.z)), std::atan2(-n.x, n.z) }; }
+
+/// Poses and all, the sample's file has some 100 kB.
+const size_t MOST_BYTES = 16 << 20;
+
+/// For a comment of YAML, where nothing may end the line, and of XML, which has no -- in it.
+std::string CommentLine(const std::string& text)
+{
+	std::string out = OneLine(text);
+	for (size_t at = 0; (at = out.find("--", at)) != std::string::npos;)
+		out.insert(at + 1, " ");
+	return out;
+}
 
 /// FileStorage takes the format from the suffix.
 void CheckSuffix(const std::string& option, const std::string& file)
@@ -191,31 +204,26 @@ void WriteOpenCv(const StateCamera& camera, const std::string& file)
 	for (int r = 0; r < 3; ++r)
 		for (int k = 0; k < 3; ++k)
 			frame(r, k) = rotation(r, k);
-	WriteAtomically(file, [&](const std::string& temporary)
-	{
-		cv::FileStorage out(temporary, cv::FileStorage::WRITE);
-		if (!out.isOpened())
-			return false;
-		const std::string state = fmt::format("State '{}', by tiltcal {}, model {}.", camera.state, TILTCAL_VERSION, camera.model);
-		for (const std::string& line : { state, LostInOpenCv() + ".",
-			std::string("The camera frame is the lens's (x right, y down, z along the lens axis): X_opencv = opencv_from_tiltcal X_tiltcal.") })
-			out.writeComment(line);
-		out << "image_width" << camera.width << "image_height" << camera.height << "camera_matrix" << cv::Mat(K)
-			<< "distortion_coefficients" << coefficients << "opencv_from_tiltcal" << cv::Mat(frame);
-		out.release();
-		return true;
-	});
+	// In memory: a file's name may hold what FileStorage takes for options.
+	cv::FileStorage out(std::filesystem::path(file).extension().string(), cv::FileStorage::WRITE | cv::FileStorage::MEMORY);
+	const std::string state = fmt::format("State '{}', by tiltcal {}, model {}.", camera.state, TILTCAL_VERSION, camera.model);
+	for (const std::string& line : { state, LostInOpenCv() + ".",
+		std::string("The camera frame is the lens's (x right, y down, z along the lens axis): X_opencv = opencv_from_tiltcal X_tiltcal.") })
+		out.writeComment(CommentLine(line));
+	out << "image_width" << camera.width << "image_height" << camera.height << "camera_matrix" << cv::Mat(K)
+		<< "distortion_coefficients" << coefficients << "opencv_from_tiltcal" << cv::Mat(frame);
+	WriteText(file, out.releaseAndGetString());
 }
 
 StateCamera ReadOpenCv(const std::string& file, double pitch_mm, const std::string& state, double& lost_px)
 {
 	CheckSuffix("IN", file);
-	ReadText(file, "the YAML file of OpenCV's calibration");   // that it can be, in our words
+	const std::string text = WithUnixLines(ReadText(file, "the YAML or XML file of OpenCV's calibration", MOST_BYTES));
 	OpenCvCamera c;
 	StateCamera camera;
 	try
 	{
-		const cv::FileStorage in(file, cv::FileStorage::READ);
+		const cv::FileStorage in(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
 		if (!in.isOpened())
 			throw FileError(fmt::format("{}: cannot be read", file));
 		camera.width = ReadSize(in, file, "image_width");
