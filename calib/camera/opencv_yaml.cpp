@@ -13,7 +13,9 @@
 #include <opencv2/core.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <limits>
 
@@ -63,6 +65,26 @@ Tau TauOfNormal(const Vec3<double>& n) { return { std::atan2(-n.y, std::hypot(n.
 /// Poses and all, the sample's file has some 100 kB.
 const size_t MOST_BYTES = 16 << 20;
 
+/// OpenCV's parsers call themselves for each list in a list, until the stack is full; its own files have three.
+const int MOST_NESTED = 200;
+
+void CheckNesting(const std::string& text, const std::string& file)
+{
+	int brackets = 0, tags = 0, lead = 0;
+	bool leading = true;
+	for (size_t i = 0; i < text.size(); ++i)
+	{
+		const char c = text[i], next = i + 1 < text.size() ? text[i + 1] : ' ';
+		brackets = std::max(0, brackets + (c == '[' || c == '{') - (c == ']' || c == '}'));
+		tags = std::max(0, tags + (c == '<' && (std::isalpha(static_cast<unsigned char>(next)) || next == '_')) - (c == '<' && next == '/'));
+		// Blocks of YAML: by indentation, or by dashes in one line.
+		leading = c == '\n' || (leading && std::strchr(" \t-?:", c));
+		lead = leading && c != '\n' ? lead + 1 : 0;
+		if (brackets > MOST_NESTED || tags > MOST_NESTED || lead > MOST_NESTED)
+			throw FileError(fmt::format("{}: has lists in lists in lists, {} deep; give the file that OpenCV's calibration sample writes", file, MOST_NESTED));
+	}
+}
+
 /// For a comment of YAML, where nothing may end the line, and of XML, which has no -- in it.
 std::string CommentLine(const std::string& text)
 {
@@ -103,7 +125,7 @@ cv::Mat ReadMatrix(const cv::FileStorage& in, const std::string& file, const std
 int ReadSize(const cv::FileStorage& in, const std::string& file, const std::string& key)
 {
 	const cv::FileNode node = in[key];
-	if (!node.isInt() || int(node) < 1)
+	if (!node.isInt() || int(node) < 1 || int(node) > MOST_PIXELS_A_SIDE)
 		throw FileError(fmt::format("{}: {} is missing or no number of pixels; add it, such as '{}: 1800'", file, key, key));
 	return int(node);
 }
@@ -219,6 +241,7 @@ StateCamera ReadOpenCv(const std::string& file, double pitch_mm, const std::stri
 {
 	CheckSuffix("IN", file);
 	const std::string text = WithUnixLines(ReadText(file, "the YAML or XML file of OpenCV's calibration", MOST_BYTES));
+	CheckNesting(text, file);
 	OpenCvCamera c;
 	StateCamera camera;
 	try

@@ -77,7 +77,7 @@ struct Node
 	}
 	int Count() const
 	{
-		if (!json->is_number_integer() || json->get<long>() < 1 || json->get<long>() > 1000000)
+		if (!json->is_number_integer() || json->get<long>() < 1 || json->get<long>() > MOST_PIXELS_A_SIDE)
 			Fail("is no number of pixels");
 		return json->get<int>();
 	}
@@ -92,7 +92,7 @@ Json Parse(const std::string& file)
 	}
 	catch (const Json::exception& e)
 	{
-		throw FileError(fmt::format("{}: is not JSON ({})", file, e.what()));
+		throw FileError(fmt::format("{}: is not JSON ({})", file, OneLine(std::string(e.what()).substr(0, 200))));
 	}
 }
 

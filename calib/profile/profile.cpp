@@ -4,6 +4,7 @@
 
 #include <tiltcal/error.h>
 #include "base/numbers.h"
+#include "base/plain_text.h"
 #include "picture/image_io.h"
 #include <tiltcal/transfer.h>
 
@@ -75,7 +76,7 @@ Line ParseLine(const std::string& text)
 	{
 		const std::optional<double> value = NumberAt(text, at);
 		if (!value || (number == &line.y1 ? at != text.size() : text[at] != ','))
-			throw UsageError(fmt::format("--line {}: give x0,y0,x1,y1 in pixels, such as 0,660,1799,660", text));
+			throw UsageError(fmt::format("--line {}: give x0,y0,x1,y1 in pixels, such as 0,660,1799,660", OneLine(text.substr(0, 60))));
 		*number = *value;
 		++at;
 	}
