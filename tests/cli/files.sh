@@ -129,6 +129,14 @@ sets) # a folder has one run's files
 	expect 3 $calibrate --untilted "$target/untilted-[1-2].jpg" --out result; says "report.html: is a folder"; nothing_left
 	rmdir result/report.html; mv report.html result
 	find result elsewhere -type f -exec cksum {} + | sort >after; same before after
+	# Ended while it draws: here in gnuplot, which waits for it.
+	mkdir bin; printf '%s\n' '#!/bin/sh' ': >reached' 'exec sleep 60' >bin/gnuplot; chmod +x bin/gnuplot
+	(export PATH="$PWD/bin:$PATH"; exec "$tiltcal" $calibrate --untilted "$target/untilted-[1-2].jpg" --out result >out 2>err) & run=$!
+	for k in $(seq 300); do [ -e reached ] && break; sleep 0.1; done
+	kill -TERM $run; wait $run; code=$?
+	[ $code = 143 ] || fail "exit code $code of a run that was ended"
+	says interrupted; nothing_left
+	find result elsewhere -type f -exec cksum {} + | sort >after; same before after
 	# Another run: what was of the first alone goes, what is nobody's stays.
 	expect 0 $calibrate --untilted "$target/untilted-[1-2].jpg" --out result
 	says "of the earlier run in result"; says "camera-mine.inc: not of this run"; nothing_left
