@@ -12,6 +12,8 @@
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
 
+#include <filesystem>
+
 namespace tiltcal
 {
 
@@ -78,8 +80,13 @@ void WriteComparison(const Comparison& c, const cv::Mat& a, const std::string& f
 	std::vector<std::string> data;
 	for (size_t k = 0; k < c.lines.size(); ++k)
 		data.push_back(set.Text(CsvName(folder, k), Csv(c.lines[k])));
+	// Those of an earlier run with more lines.
+	for (size_t k = c.lines.size(); std::filesystem::exists(CsvName(folder, k)); ++k)
+		set.Remove(CsvName(folder, k));
 	if (!c.lines.empty())
 		PlotProfiles(c, data, folder, set);
+	else
+		set.Remove(Join(folder, "profile.png"));
 	cv::Mat both;
 	const cv::Mat gap(a.rows, std::max(4, a.cols / 100), CV_8UC3, cv::Scalar::all(255));
 	cv::hconcat(std::vector<cv::Mat>{ WithLines(Luminance(a), c), gap, WithLines(c.matched, c) }, both);

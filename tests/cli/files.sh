@@ -115,6 +115,10 @@ links_devices)
 	mkdir folder.json; refuses 3 "folder.json.*is a folder" import camera.yml --pitch 0.02 --out folder.json
 	nothing_left ;;
 sets) # a folder has one run's files
+	set -- profile "$target/untilted-1.jpg" "$target/untilted-2.jpg"
+	expect 0 "$@" --line 0,0,99,0 --line 0,0,0,99 --line 5,5,5,5 --out profiles; [ -s profiles/profile-3.csv ] && [ -s profiles/profile.png ] || fail "no profiles"
+	expect 0 "$@" --line 0,0,99,0 --out profiles; [ "$(echo profiles/*.csv)" = profiles/profile-1.csv ] || fail "profiles of two runs"
+	expect 0 "$@" --out profiles; [ "$(ls profiles)" = side-by-side.png ] || fail "profiles of two runs: $(ls profiles)"
 	mkdir elsewhere result; ln -s ../elsewhere/calibration.json result/calibration.json
 	echo mine >result/camera-mine.inc; echo mine >result/overlay.txt
 	expect 0 $calibrate --untilted "$target/untilted-[1-3].jpg" --tilted plus5="$target/plus5-[1-3].jpg" --out result
