@@ -159,7 +159,7 @@ crlf) # and a byte order mark
 		expect 0 pose --calibration $kind-camera.json --points $kind-points.csv --out $kind.inc; same plain.inc $kind.inc
 	done
 	sed '4s/.*/nonsense\r/' dos-points.csv >bad.csv; refuses 3 "bad.csv:4: 'nonsense'" pose --calibration camera.json --points bad.csv ;;
-two_gb) # sparse files; five seconds are ten times what a refusal takes on a slow machine
+two_gb) # sparse files. Nine refusals take 1 s, a slow machine with sanitizers 10; to read them takes longer
 	camera
 	for file in zero.jpg zero.json zero.csv zero.yml; do truncate -s 2200M $file; done
 	printf '\377\330\377' >real.jpg; truncate -s 2200M real.jpg
@@ -173,7 +173,7 @@ two_gb) # sparse files; five seconds are ten times what a refusal takes on a slo
 	refuses 3 "zero.json.*MB" export --calibration zero.json --opencv x.yml
 	refuses 3 "zero.yml.*MB" import zero.yml --pitch 0.02 --out x.json
 	truncate -s 1900M zero.jpg; refuses 3 "zero.jpg: not a picture" $calibrate --untilted zero.jpg --out result
-	[ $(($(date +%s) - start)) -le 5 ] || fail "took $(($(date +%s) - start)) s"
+	[ $(($(date +%s) - start)) -le 20 ] || fail "took $(($(date +%s) - start)) s"
 	rm -f zero.* real.jpg ;;
 full_disk)
 	camera
