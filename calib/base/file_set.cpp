@@ -154,8 +154,8 @@ void FileSet::Commit()
 		for (Entry& e : entries)
 			if (e.through)
 				CopyThrough(e.temporary, e.place, e.file);
-		// One file alone takes its place in one step.
-		if (entries.size() > 1)
+		// One new file alone takes its place in one step.
+		if (entries.size() != 1 || entries[0].temporary.empty())
 			for (auto e = entries.rbegin(); e != entries.rend(); ++e)
 				if (!e->through)
 					PutAside(*e);

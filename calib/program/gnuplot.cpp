@@ -73,9 +73,10 @@ bool Plot(FileSet& set, const std::string& file, const std::string& script, int 
 bool Plot(const std::string& file, const std::string& script, int width, int height)
 {
 	FileSet set;
-	const bool plotted = Plot(set, file, script, width, height);
+	if (!Plot(set, file, script, width, height))
+		return false;
 	set.Commit();
-	return plotted;
+	return true;
 }
 
 }

@@ -86,6 +86,16 @@ TEST_F(Sets, AppearTogether)
 	EXPECT_EQ(Entries(), 2u);
 }
 
+TEST_F(Sets, MayOnlyTakeAway)
+{
+	WriteText(At("gone"), "old");
+	FileSet set;
+	set.Remove(At("gone"));
+	EXPECT_EQ(Text("gone"), "old");
+	set.Commit();
+	EXPECT_EQ(Entries(), 0u);
+}
+
 TEST_F(Sets, ThatAreGivenUpLeaveNothing)
 {
 	WriteText(At("a"), "old a");
