@@ -68,6 +68,9 @@ const size_t MOST_BYTES = 16 << 20;
 /// OpenCV's parsers call themselves for each list in a list, until the stack is full; its own files have three.
 const int MOST_NESTED = 200;
 
+/// Of a matrix; the largest that is read has 14.
+const int MOST_ROWS = 100;
+
 void CheckNesting(const std::string& text, const std::string& file)
 {
 	int brackets = 0, tags = 0, lead = 0;
@@ -107,7 +110,10 @@ cv::Mat ReadMatrix(const cv::FileStorage& in, const std::string& file, const std
 	cv::Mat m;
 	try
 	{
-		in[key] >> m;
+		// OpenCV makes room for what they say before it looks at what there is.
+		const cv::FileNode node = in[key], rows = node["rows"], columns = node["cols"];
+		if (rows.isInt() && columns.isInt() && int(rows) > 0 && int(rows) <= MOST_ROWS && int(columns) > 0 && int(columns) <= MOST_ROWS)
+			node >> m;
 	}
 	catch (const cv::Exception&)
 	{
@@ -241,6 +247,9 @@ StateCamera ReadOpenCv(const std::string& file, double pitch_mm, const std::stri
 {
 	CheckSuffix("IN", file);
 	const std::string text = WithUnixLines(ReadText(file, "the YAML or XML file of OpenCV's calibration", MOST_BYTES));
+	// OpenCV's XML parser takes one for the end and runs on behind it.
+	if (text.find('\0') != std::string::npos)
+		throw FileError(fmt::format("{}: is no text: it holds zero bytes", file));
 	CheckNesting(text, file);
 	OpenCvCamera c;
 	StateCamera camera;

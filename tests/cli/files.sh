@@ -158,6 +158,10 @@ crlf) # and a byte order mark
 		done
 		expect 0 pose --calibration $kind-camera.json --points $kind-points.csv --out $kind.inc; same plain.inc $kind.inc
 	done
+	# What brought OpenCV's parsers down: zero bytes, lists without end, room for 50 GB (found by tests/fuzz/coverage.sh).
+	printf '<?xml version=\000"1.0"?>%%\n<opencv_storage' >zero.xml; refuses 3 "zero.xml: is no text" import zero.xml --pitch 0.02 --out x.json
+	{ printf '%%YAML:1.0\n---\na: '; head -c 100000 /dev/zero | tr '\0' '['; } >deep.yml; refuses 3 "deep.yml: has lists in lists" import deep.yml --pitch 0.02 --out x.json
+	sed 's/rows: 3/rows: 2000000000/' camera.yml >large.yml; refuses 3 "large.yml: camera_matrix" import large.yml --pitch 0.02 --out x.json
 	sed '4s/.*/nonsense\r/' dos-points.csv >bad.csv; refuses 3 "bad.csv:4: 'nonsense'" pose --calibration camera.json --points bad.csv ;;
 two_gb) # sparse files. Nine refusals take 1 s, a slow machine with sanitizers 10; to read them takes longer
 	camera
