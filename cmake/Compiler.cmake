@@ -18,3 +18,12 @@ if(TILT_LENS_SANITIZE)
 	add_compile_options(${TILT_LENS_SANITIZER_FLAGS})
 	add_link_options(${TILT_LENS_SANITIZER_FLAGS})
 endif()
+
+# Coverage for libFuzzer (tests/fuzz/coverage.sh), which only clang has.
+if(TILT_LENS_LIBFUZZER)
+	if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+		message(FATAL_ERROR "TILT_LENS_LIBFUZZER needs clang: -DCMAKE_CXX_COMPILER=clang++")
+	endif()
+	add_compile_options(-fsanitize=fuzzer-no-link)
+	add_link_options(-fsanitize=fuzzer-no-link)
+endif()

@@ -2,6 +2,7 @@
 
 #include "base/files.h"
 
+#include "base/output_place.h"
 #include <tiltcal/error.h>
 
 #include <fmt/format.h>
@@ -56,12 +57,6 @@ bool NaturalLess(const std::string& a, const std::string& b)
 	if ((a.size() - i) != (b.size() - j))
 		return a.size() - i < b.size() - j;
 	return a < b;
-}
-
-std::string TemporaryName(const std::string& file)
-{
-	const fs::path path(file);
-	return (path.parent_path() / fmt::format(".{}.{}{}", path.stem().string(), getpid(), path.extension().string())).string();
 }
 
 }
@@ -127,64 +122,27 @@ void PrepareFolder(const std::string& folder)
 	if (code || !fs::is_directory(folder))
 		throw FileError(fmt::format("{}: cannot create this folder ({}); give another with `out`",
 			folder, code ? code.message() : "a file of this name is in the way"));
-	const std::string probe = Join(folder, fmt::format(".tiltcal.{}", getpid()));
-	const bool written = static_cast<bool>(std::ofstream(probe) << "probe");
-	fs::remove(probe, code);
-	if (!written)
+	try
+	{
+		fs::remove(NewTemporary({ Join(folder, "probe"), false }), code);
+	}
+	catch (const Error&)
+	{
 		throw FileError(fmt::format("{}: cannot write in this folder; change its permissions or give another with `out`", folder));
+	}
 }
 
 void PrepareFolderOf(const std::string& file)
 {
-	const std::string folder = fs::path(file).parent_path().string();
+	const OutputPlace place = PlaceOf(file);
+	if (place.through)
+	{
+		if (access(place.path.c_str(), W_OK) != 0)
+			throw FileError(fmt::format("{}: cannot be written ({})", file, std::strerror(errno)));
+		return;
+	}
+	const std::string folder = fs::path(place.path).parent_path().string();
 	PrepareFolder(folder.empty() ? "." : folder);
-}
-
-void WriteAtomically(const std::string& file, const std::function<bool(const std::string&)>& write)
-{
-	const std::string temporary = TemporaryName(file);
-	std::error_code code;
-	bool written = false;
-	try
-	{
-		written = write(temporary);
-	}
-	catch (const Error&)
-	{
-		fs::remove(temporary, code);
-		throw;
-	}
-	catch (const std::exception& e)
-	{
-		fs::remove(temporary, code);
-		throw FileError(fmt::format("{}: cannot be written: {}", file, e.what()));
-	}
-	catch (...)
-	{
-		// Such as an interrupt.
-		fs::remove(temporary, code);
-		throw;
-	}
-	if (written)
-		fs::rename(temporary, file, code);
-	if (!written || code)
-	{
-		std::error_code ignored;
-		fs::remove(temporary, ignored);
-		throw FileError(fmt::format("{}: cannot be written ({}); check the folder and the free space",
-			file, code ? code.message() : std::strerror(errno ? errno : EIO)));
-	}
-}
-
-void WriteText(const std::string& file, const std::string& text)
-{
-	WriteAtomically(file, [&](const std::string& temporary)
-	{
-		std::ofstream out(temporary, std::ios::binary);
-		out << text;
-		out.close();
-		return static_cast<bool>(out);
-	});
 }
 
 std::string Stem(const std::string& file) { return fs::path(file).stem().string(); }

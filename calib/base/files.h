@@ -28,11 +28,10 @@ std::string ReadText(const std::string& file, const std::string& what, size_t mo
 /// Throws FileError. Called before the work starts, not after it.
 void PrepareFolder(const std::string& folder);
 
-/// PrepareFolder for the folder that `file` is to be written in.
+/// PrepareFolder for the folder that `file`, or what it links to, is to be written in. A device must be writable itself.
 void PrepareFolderOf(const std::string& file);
 
-/// Lets `write` produce the file under a temporary name beside `file` (same suffix)
-/// and renames it, so that an interrupted run leaves the old file or none.
+/// A FileSet (file_set.h) of one file: an interrupted run leaves the old file or none.
 /// `write` returns false, or throws Error, when it cannot. Throws FileError.
 void WriteAtomically(const std::string& file, const std::function<bool(const std::string& temporary)>& write);
 

@@ -3,12 +3,12 @@
 #include <tiltcal/transfer.h>
 
 #include <tiltcal/error.h>
+#include "base/numbers.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 namespace tiltcal
 {
@@ -19,9 +19,8 @@ Transfer ParseTransfer(const std::string& text)
 		return { Transfer::SRGB, 1 };
 	if (text == "linear")
 		return { Transfer::LINEAR, 1 };
-	char* end = nullptr;
-	const double gamma = std::strtod(text.c_str(), &end);
-	if (text.empty() || *end != '\0' || !(gamma >= 0.1 && gamma <= 10))
+	const double gamma = FiniteNumber(text).value_or(0);
+	if (!(gamma >= 0.1 && gamma <= 10))
 		throw UsageError(fmt::format("`transfer` {}: give srgb, linear or a gamma between 0.1 and 10, such as 2.2", text));
 	return { Transfer::GAMMA, gamma };
 }

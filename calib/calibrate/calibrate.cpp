@@ -14,6 +14,7 @@
 #include "measure/measure.h"
 #include "base/robust.h"
 #include "solve/edge_bias.h"
+#include "model/state_names.h"
 #include "solve/solve_lens.h"
 #include "solve/solve_geometry.h"
 #include "solve/solve_joint.h"
@@ -225,6 +226,14 @@ void CheckPitch(double pitch_mm)
 		throw UsageError(fmt::format("`pitch` {}: give the distance of pixel centres on the sensor in mm, such as 0.00655", pitch_mm));
 }
 
+static std::vector<std::string> NamesOf(const std::vector<StateFiles>& states)
+{
+	std::vector<std::string> names;
+	for (const StateFiles& s : states)
+		names.push_back(s.name);
+	return names;
+}
+
 Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, double pitch_mm, const MeasureOptions& options)
 {
 	return MeasureAll(states, board, pitch_mm, options, {});
@@ -234,6 +243,7 @@ Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, doubl
 {
 	const QuietLibraries quiet;
 	CheckPitch(pitch_mm);
+	CheckStateNames(NamesOf(states));
 	Task task;
 	task.board = board;
 	task.pitch_mm = pitch_mm;

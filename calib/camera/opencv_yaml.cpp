@@ -5,6 +5,7 @@
 
 #include <tiltcal/error.h>
 #include "base/files.h"
+#include "base/plain_text.h"
 #include "model/tilt_angles.h"
 
 #include <Eigen/LU>
@@ -12,7 +13,9 @@
 #include <opencv2/core.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <limits>
 
@@ -59,6 +62,41 @@ struct Tau
 
 Tau TauOfNormal(const Vec3<double>& n) { return { std::atan2(-n.y, std::hypot(n.x, n.z)), std::atan2(-n.x, n.z) }; }
 
+/// Poses and all, the sample's file has some 100 kB.
+const size_t MOST_BYTES = 16 << 20;
+
+/// OpenCV's parsers call themselves for each list in a list, until the stack is full; its own files have three.
+const int MOST_NESTED = 200;
+
+/// Of a matrix; the largest that is read has 14.
+const int MOST_ROWS = 100;
+
+void CheckNesting(const std::string& text, const std::string& file)
+{
+	int brackets = 0, tags = 0, lead = 0;
+	bool leading = true;
+	for (size_t i = 0; i < text.size(); ++i)
+	{
+		const char c = text[i], next = i + 1 < text.size() ? text[i + 1] : ' ';
+		brackets = std::max(0, brackets + (c == '[' || c == '{') - (c == ']' || c == '}'));
+		tags = std::max(0, tags + (c == '<' && (std::isalpha(static_cast<unsigned char>(next)) || next == '_')) - (c == '<' && next == '/'));
+		// Blocks of YAML: by indentation, or by dashes in one line.
+		leading = c == '\n' || (leading && std::strchr(" \t-?:", c));
+		lead = leading && c != '\n' ? lead + 1 : 0;
+		if (brackets > MOST_NESTED || tags > MOST_NESTED || lead > MOST_NESTED)
+			throw FileError(fmt::format("{}: has lists in lists in lists, {} deep; give the file that OpenCV's calibration sample writes", file, MOST_NESTED));
+	}
+}
+
+/// For a comment of YAML, where nothing may end the line, and of XML, which has no -- in it.
+std::string CommentLine(const std::string& text)
+{
+	std::string out = OneLine(text);
+	for (size_t at = 0; (at = out.find("--", at)) != std::string::npos;)
+		out.insert(at + 1, " ");
+	return out;
+}
+
 /// FileStorage takes the format from the suffix.
 void CheckSuffix(const std::string& option, const std::string& file)
 {
@@ -72,7 +110,10 @@ cv::Mat ReadMatrix(const cv::FileStorage& in, const std::string& file, const std
 	cv::Mat m;
 	try
 	{
-		in[key] >> m;
+		// OpenCV makes room for what they say before it looks at what there is.
+		const cv::FileNode node = in[key], rows = node["rows"], columns = node["cols"];
+		if (rows.isInt() && columns.isInt() && int(rows) > 0 && int(rows) <= MOST_ROWS && int(columns) > 0 && int(columns) <= MOST_ROWS)
+			node >> m;
 	}
 	catch (const cv::Exception&)
 	{
@@ -90,7 +131,7 @@ cv::Mat ReadMatrix(const cv::FileStorage& in, const std::string& file, const std
 int ReadSize(const cv::FileStorage& in, const std::string& file, const std::string& key)
 {
 	const cv::FileNode node = in[key];
-	if (!node.isInt() || int(node) < 1)
+	if (!node.isInt() || int(node) < 1 || int(node) > MOST_PIXELS_A_SIDE)
 		throw FileError(fmt::format("{}: {} is missing or no number of pixels; add it, such as '{}: 1800'", file, key, key));
 	return int(node);
 }
@@ -191,31 +232,30 @@ void WriteOpenCv(const StateCamera& camera, const std::string& file)
 	for (int r = 0; r < 3; ++r)
 		for (int k = 0; k < 3; ++k)
 			frame(r, k) = rotation(r, k);
-	WriteAtomically(file, [&](const std::string& temporary)
-	{
-		cv::FileStorage out(temporary, cv::FileStorage::WRITE);
-		if (!out.isOpened())
-			return false;
-		const std::string state = fmt::format("State '{}', by tiltcal {}, model {}.", camera.state, TILTCAL_VERSION, camera.model);
-		for (const std::string& line : { state, LostInOpenCv() + ".",
-			std::string("The camera frame is the lens's (x right, y down, z along the lens axis): X_opencv = opencv_from_tiltcal X_tiltcal.") })
-			out.writeComment(line);
-		out << "image_width" << camera.width << "image_height" << camera.height << "camera_matrix" << cv::Mat(K)
-			<< "distortion_coefficients" << coefficients << "opencv_from_tiltcal" << cv::Mat(frame);
-		out.release();
-		return true;
-	});
+	// In memory: a file's name may hold what FileStorage takes for options.
+	cv::FileStorage out(std::filesystem::path(file).extension().string(), cv::FileStorage::WRITE | cv::FileStorage::MEMORY);
+	const std::string state = fmt::format("State '{}', by tiltcal {}, model {}.", camera.state, TILTCAL_VERSION, camera.model);
+	for (const std::string& line : { state, LostInOpenCv() + ".",
+		std::string("The camera frame is the lens's (x right, y down, z along the lens axis): X_opencv = opencv_from_tiltcal X_tiltcal.") })
+		out.writeComment(CommentLine(line));
+	out << "image_width" << camera.width << "image_height" << camera.height << "camera_matrix" << cv::Mat(K)
+		<< "distortion_coefficients" << coefficients << "opencv_from_tiltcal" << cv::Mat(frame);
+	WriteText(file, out.releaseAndGetString());
 }
 
 StateCamera ReadOpenCv(const std::string& file, double pitch_mm, const std::string& state, double& lost_px)
 {
 	CheckSuffix("IN", file);
-	ReadText(file, "the YAML file of OpenCV's calibration");   // that it can be, in our words
+	const std::string text = WithUnixLines(ReadText(file, "the YAML or XML file of OpenCV's calibration", MOST_BYTES));
+	// OpenCV's XML parser takes one for the end and runs on behind it.
+	if (text.find('\0') != std::string::npos)
+		throw FileError(fmt::format("{}: is no text: it holds zero bytes", file));
+	CheckNesting(text, file);
 	OpenCvCamera c;
 	StateCamera camera;
 	try
 	{
-		const cv::FileStorage in(file, cv::FileStorage::READ);
+		const cv::FileStorage in(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
 		if (!in.isOpened())
 			throw FileError(fmt::format("{}: cannot be read", file));
 		camera.width = ReadSize(in, file, "image_width");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
+#include "base/plain_text.h"
 #include "camera/camera_block.h"
 #include "model/projection.h"
 #include "camera/pose.h"
@@ -49,7 +50,7 @@ std::string PoseInc(const StateCamera& c, const CameraPose& pose, double unit_mm
 		"{}{}{}"
 		"// 0: the place alone, without this camera.\n#ifndef (TiltCal_Pose_Camera)\n\t#declare TiltCal_Pose_Camera = 1;\n#end\n"
 		"#if (TiltCal_Pose_Camera)\n{}#end\n",
-		TILTCAL_VERSION, c.state, unit_mm, c.width, c.height, pose.residuals.size(), pose.rms, Sigmas(pose.location_sigma, "units"), Sigmas(pose.rotation_sigma_deg, "degrees"),
+		TILTCAL_VERSION, OneLine(c.state), unit_mm, c.width, c.height, pose.residuals.size(), pose.rms, Sigmas(pose.location_sigma, "units"), Sigmas(pose.rotation_sigma_deg, "degrees"),
 		c.aperture_diameter_mm > 0 ? "" : "// The calibration knows no aperture and no focus: a pinhole camera.\n", PlaceText(c, pose, unit_mm), BlurSamplesDefault(), CameraBlockOf(c, PlaceOf(pose), unit_mm));
 }
 

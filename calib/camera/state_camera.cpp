@@ -3,8 +3,10 @@
 #include "camera/state_camera.h"
 
 #include "model/names.h"
+#include "model/state_names.h"
 #include <tiltcal/error.h>
 #include "base/files.h"
+#include "base/plain_text.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -75,7 +77,7 @@ struct Node
 	}
 	int Count() const
 	{
-		if (!json->is_number_integer() || json->get<long>() < 1 || json->get<long>() > 1000000)
+		if (!json->is_number_integer() || json->get<long>() < 1 || json->get<long>() > MOST_PIXELS_A_SIDE)
 			Fail("is no number of pixels");
 		return json->get<int>();
 	}
@@ -90,7 +92,7 @@ Json Parse(const std::string& file)
 	}
 	catch (const Json::exception& e)
 	{
-		throw FileError(fmt::format("{}: is not JSON ({})", file, e.what()));
+		throw FileError(fmt::format("{}: is not JSON ({})", file, OneLine(std::string(e.what()).substr(0, 200))));
 	}
 }
 
@@ -104,13 +106,13 @@ Node FindState(const Node& top, const std::string& name)
 	{
 		const Node state = states.At(i);
 		const std::string its_name = state["name"].Text();
-		if (name.empty() || its_name == name)
+		if (name.empty() || its_name == name || its_name == WithUnderscores(name))
 			return state;
 		names += (i ? ", " : "") + its_name;
 	}
 	if (names.empty())
 		states.Fail("is empty");
-	throw UsageError(fmt::format("`state` {}: {} has the states {}", name, top.file, names));
+	throw UsageError(fmt::format("`state` {}: {} has the states {}", name, top.file, OneLine(names)));
 }
 
 bool Used(const Node& effects, EffectId effect)
@@ -213,7 +215,8 @@ std::string StateCameraJson(const StateCamera& c, const std::string& source)
 	json["pixel_pitch_mm"] = c.pitch_mm;
 	json["frames"] = "camera: x right, y up, z forward; pixel centres at integers, (0, 0) top left";
 	json["program"] = "tiltcal " TILTCAL_VERSION;
-	return json.dump(1, '\t') + "\n";
+	// A file name may be in another encoding than JSON's.
+	return json.dump(1, '\t', false, Json::error_handler_t::replace) + "\n";
 }
 
 }

@@ -12,6 +12,9 @@
 namespace tiltcal
 {
 
+/// Of a picture in a file; more is a mistake.
+const int MOST_PIXELS_A_SIDE = 1000000;
+
 /// What one fit says of a state's camera, without any choice of effects.
 StateCamera CameraOfFit(const Task& task, const Solution& solution, const Geometry& geometry, size_t state);
 

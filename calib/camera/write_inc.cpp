@@ -3,10 +3,12 @@
 #include "camera/write_inc.h"
 
 #include "model/projection.h"
+#include "model/state_names.h"
 #include <tiltcal/calibrate.h>
 #include "camera/camera_block.h"
 #include "effects/effects.h"
 #include "base/files.h"
+#include "base/plain_text.h"
 
 #include <fmt/format.h>
 
@@ -43,7 +45,7 @@ std::string PhotoPose(const std::string& prefix, size_t number, const Photo& pho
 	const Vec3<double> location = back(-pose[3], -pose[4], -pose[5]);
 	const Vec3<double> forward = back(0, 0, 1000);
 	const std::string name = fmt::format("{}_Photo_{}", prefix, number);
-	return fmt::format("// {}\n#declare {}_Location = {};\n#declare {}_Look_At = {};\n#declare {}_Sky = {};\n", BaseName(photo.file),
+	return fmt::format("// {}\n#declare {}_Location = {};\n#declare {}_Look_At = {};\n#declare {}_Sky = {};\n", OneLine(BaseName(photo.file)),
 		name, Vector(location), name, Vector(location + forward), name, Vector(back(0, 1, 0)));
 }
 
@@ -164,6 +166,7 @@ std::string Macro(const Calibration& c, size_t s, const std::string& p)
 std::string CameraInc(const Calibration& c, size_t s)
 {
 	const std::string& name = c.task.states[s].name;
+	CheckStateName(name);
 	const std::string p = "TiltCal_" + name;
 	const bool distorted = Uses(c, EffectId::DISTORTION);
 	std::string out = fmt::format(

@@ -3,6 +3,7 @@
 #include "cli/commands.h"
 
 #include "model/priors.h"
+#include "model/state_names.h"
 #include "program/program.h"
 #include "program/spelling.h"
 #include "calibrate/measure_all.h"
@@ -13,6 +14,7 @@
 #include <tiltcal/error.h>
 #include "calibrate/exif_check.h"
 #include "base/files.h"
+#include "base/plain_text.h"
 #include "effects/effects.h"
 #include "effects/fixed_blades.h"
 #include "report/write_report.h"
@@ -22,12 +24,11 @@
 #include <opencv2/imgcodecs.hpp>
 #include <spdlog/spdlog.h>
 
-#include <cctype>
 #include <chrono>
 #include <ctime>
 #include <memory>
 #include <optional>
-#include <set>
+#include <utility>
 
 namespace tiltcal
 {
@@ -48,28 +49,35 @@ struct Options
 /// Six edges of each direction reach all quarters of the board (test_spread_order.cpp).
 const int FEWEST_EDGES = 12;
 
-/// NAME becomes part of POV-Ray identifiers and of file names.
-void CheckName(const std::string& name, const std::string& option)
+/// The state's name and pattern of --tilted NAME='GLOB'.
+std::pair<std::string, std::string> NameAndPattern(const std::string& option)
 {
-	bool good = !name.empty() && !std::isdigit(static_cast<unsigned char>(name[0]));
-	for (const char c : name)
-		good = good && (std::isalnum(static_cast<unsigned char>(c)) || c == '_');
-	if (!good)
-		throw UsageError(fmt::format("--tilted {}: give NAME='GLOB', NAME of letters, digits and _ and not beginning with a digit, such as plus5='plus5-*.png'", option));
+	const size_t equals = option.find('=');
+	if (equals == std::string::npos)
+		throw UsageError(fmt::format("--tilted {}: give NAME='GLOB', such as plus5='plus5-*.png'", option));
+	const std::string given = option.substr(0, equals), name = WithUnderscores(given);
+	if (name != given)
+		spdlog::info("state {} is called {}, as POV-Ray's identifiers must be", OneLine(given), name);
+	return { name, option.substr(equals + 1) };
 }
 
 std::vector<StateFiles> States(const Options& o)
 {
 	std::vector<StateFiles> states{ { "untilted", ExpandGlobs(o.untilted, "--untilted") } };
-	std::set<std::string> names{ "untilted" };
+	std::vector<std::string> names{ "untilted" };
 	for (const std::string& option : o.tilted)
 	{
-		const size_t equals = option.find('=');
-		CheckName(equals == std::string::npos ? "" : option.substr(0, equals), option);
-		const std::string name = option.substr(0, equals);
-		if (!names.insert(name).second)
-			throw UsageError(fmt::format("--tilted {}: the name '{}' is already taken; give every state its own", option, name));
-		states.push_back({ name, ExpandGlobs({ option.substr(equals + 1) }, "--tilted " + name) });
+		const auto [name, pattern] = NameAndPattern(option);
+		names.push_back(name);
+		try
+		{
+			CheckStateNames(names);
+		}
+		catch (const Error& e)
+		{
+			throw UsageError(fmt::format("--tilted {}: {}", option, e.what()));
+		}
+		states.push_back({ name, ExpandGlobs({ pattern }, "--tilted " + name) });
 	}
 	return states;
 }
@@ -87,7 +95,7 @@ std::vector<FieldFile> FlatFields(const Options& o, const std::vector<StateFiles
 	for (const std::string& option : o.flat_field)
 	{
 		const size_t equals = option.find('=');
-		const std::string name = option.substr(0, equals);
+		const std::string name = WithUnderscores(option.substr(0, equals));
 		std::string names;
 		size_t state = states.size();
 		for (size_t s = 0; s < states.size(); ++s)
@@ -290,7 +298,7 @@ void AddCalibrate(CLI::App& app, const std::string& command_line)
 		"harm: it is measured in every photograph")->capture_default_str();
 	c->add_option("--pitch", o->pitch, "Distance of pixel centres on the sensor, mm; needed unless EXIF says it (FocalPlaneXResolution)");
 	c->add_option("--untilted", o->untilted, "Photographs with the lens untilted: names or quoted patterns")->required();
-	c->add_option("--tilted", o->tilted, "NAME='GLOB': photographs of one tilted state; may be repeated");
+	c->add_option("--tilted", o->tilted, "NAME='GLOB': photographs of one tilted state; NAME of letters, digits and _ (- and . become _); may be repeated");
 	c->add_option("--model", o->model, ModelHelp())->capture_default_str();
 	c->add_option("--transfer", o->transfer, "Transfer curve of 8 and 16 bit pictures: srgb, linear or a gamma; OpenEXR is linear")->capture_default_str();
 	c->add_option("--poses", o->poses, "shared: photograph n shows the board in one pose in every state; own: not; auto: see for itself")->capture_default_str();

@@ -4,7 +4,9 @@
 
 #include <tiltcal/photo.h>
 #include <tiltcal/error.h>
+#include "base/file_set.h"
 #include "base/files.h"
+#include "base/output_place.h"
 #include "picture/image_io.h"
 #include "measure/measure.h"
 #include "report/overlay.h"
@@ -52,6 +54,7 @@ void Run(const Options& o)
 	PrepareFolderOf(o.csv);
 	if (!o.overlay.empty())
 		PrepareFolder(o.overlay);
+	FileSet set;
 	std::vector<Photo> photos;
 	for (const std::string& file : files)
 	{
@@ -61,10 +64,13 @@ void Run(const Options& o)
 		spdlog::info("[{}/{}] {}: {}", photos.size(), files.size(), file, CountText(p));
 		fmt::print("{}: {}, {} {} left out, {}\n", file, CountText(p), p.edges_dropped, board.IsCheckerboard() ? "edges" : "arcs", RatioText(p));
 		if (!o.overlay.empty())
-			WritePng(OverlayName(o.overlay, photos.size(), file), DrawMeasured(grey, p));
+			set.Text(OverlayName(o.overlay, photos.size(), file), PngOf(DrawMeasured(grey, p)));
 	}
-	WriteText(o.csv, CornersCsv(photos));
-	WriteText(EdgesName(o.csv), EdgesCsv(photos));
+	// Nothing lies beside a device.
+	if (!PlaceOf(o.csv).through)
+		set.Text(EdgesName(o.csv), EdgesCsv(photos));
+	set.Text(o.csv, CornersCsv(photos));
+	set.Commit();
 }
 
 }

@@ -3,8 +3,10 @@
 #include "cli/commands.h"
 
 #include <tiltcal/calibrate.h>
+#include <tiltcal/error.h>
 #include "base/files.h"
 #include "camera/opencv_yaml.h"
+#include "model/state_names.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -23,11 +25,26 @@ struct Options
 	double pitch = 0;
 };
 
+void CheckState(const std::string& name)
+{
+	try
+	{
+		CheckStateName(name);
+	}
+	catch (const Error& e)
+	{
+		throw UsageError(fmt::format("--state: {}", e.what()));
+	}
+}
+
 void Run(const Options& o)
 {
 	CheckPitch(o.pitch);
+	const std::string state = WithUnderscores(o.state);
+	if (!state.empty())
+		CheckState(state);
 	double lost_px = 0;
-	const StateCamera camera = ReadOpenCv(o.in, o.pitch, o.state, lost_px);
+	const StateCamera camera = ReadOpenCv(o.in, o.pitch, state, lost_px);
 	PrepareFolderOf(o.out);
 	WriteText(o.out, StateCameraJson(camera, o.in));
 	// Below this no picture can show it.

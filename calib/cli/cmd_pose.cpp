@@ -3,6 +3,7 @@
 #include "cli/commands.h"
 
 #include <tiltcal/error.h>
+#include "base/file_set.h"
 #include "base/files.h"
 #include "picture/image_io.h"
 #include "camera/pose_photo.h"
@@ -26,12 +27,15 @@ struct Options
 	int window = 9;
 };
 
-void Report(const Options& o, const PhotoPose& solved, const std::string& inc)
+void Report(const Options& o, const PhotoPose& solved, const std::string& inc, FileSet& set)
 {
 	const std::string text = PhotoPoseText(solved);
 	if (solved.pose.outliers > 0)
 		spdlog::warn("{}: {} of {} points are far off and hardly count; measure again line {} ({:.2f} px)", o.points, solved.pose.outliers, solved.points.size(),
 			solved.points[solved.pose.worst].line, solved.pose.residuals[solved.pose.worst].norm());
+	if (!o.out.empty())
+		set.Text(o.out, inc);
+	set.Commit();
 	if (o.out.empty())
 	{
 		// stdout is the block alone, so that it can be piped into a file.
@@ -39,7 +43,6 @@ void Report(const Options& o, const PhotoPose& solved, const std::string& inc)
 		fmt::print("{}", inc);
 		return;
 	}
-	WriteText(o.out, inc);
 	fmt::print("{}written to {}\n", text, o.out);
 }
 
@@ -55,6 +58,7 @@ void Run(const Options& o)
 		if (!file.empty())
 			PrepareFolderOf(file);
 	PhotoPose solved;
+	FileSet set;
 	if (o.photo.empty())
 		solved = { SolvePose(camera, points, o.points), points, {}, {}, {} };
 	else
@@ -62,9 +66,9 @@ void Run(const Options& o)
 		const cv::Mat photo = ReadLinear(o.photo, ParseTransfer(o.transfer));
 		solved = SolvePoseInPhoto(camera, photo, points, o.window, o.points);
 		if (!o.overlay.empty())
-			WritePng(o.overlay, DrawPosePoints(photo, solved));
+			set.Text(o.overlay, PngOf(DrawPosePoints(photo, solved)));
 	}
-	Report(o, solved, PoseInc(camera, solved.pose, o.unit_mm));
+	Report(o, solved, PoseInc(camera, solved.pose, o.unit_mm), set);
 }
 
 }

@@ -3,6 +3,7 @@
 #include "cli/commands.h"
 
 #include <tiltcal/error.h>
+#include "base/file_set.h"
 #include "base/files.h"
 #include "picture/image_io.h"
 #include "profile/profile.h"
@@ -39,9 +40,11 @@ void Run(const Options& o)
 	if (!o.json.empty())
 		PrepareFolderOf(o.json);
 	const Comparison c = Compare(a, b, lines, match);
-	WriteComparison(c, a, o.out);
+	FileSet set;
+	WriteComparison(c, a, o.out, set);
 	if (!o.json.empty())
-		WriteText(o.json, ComparisonJson(c, o.a, o.b));
+		set.Text(o.json, ComparisonJson(c, o.a, o.b));
+	set.Commit();
 	fmt::print("{}", ComparisonText(c));
 }
 

@@ -2,6 +2,7 @@
 
 #include "cli/commands.h"
 
+#include "base/file_set.h"
 #include "base/files.h"
 #include "target/target.h"
 
@@ -29,11 +30,13 @@ void Run(const Options& o)
 		CheckTargetSuffix(file);
 	const Board target = MakeBoard(ParseTargetKind(o.kind, "--kind"), o.board, o.square, o.circle_diameter, "--kind");
 	const TargetPage page = LayOut(target, o.paper, o.margin);
+	FileSet set;
 	for (const std::string& file : o.out)
 	{
 		PrepareFolderOf(file);
-		WriteTarget(page, file);
+		WriteTarget(page, file, set);
 	}
+	set.Commit();
 	if (LooksTheSameTurned(target))
 		spdlog::warn("this target looks the same when turned by 180 degrees: mark its top in the scene, or choose {}",
 			target.IsCheckerboard() ? "columns + rows odd, such as 12x9" : "asymmetric-circles with an odd number of rows, such as 4x11");

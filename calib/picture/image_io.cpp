@@ -163,9 +163,17 @@ cv::Mat ToDisplay(const cv::Mat& linear, double gain)
 	return display;
 }
 
+std::string PngOf(const cv::Mat& image)
+{
+	// Not imwrite, which does not see a full disk.
+	std::vector<uchar> bytes;
+	cv::imencode(".png", image, bytes);
+	return { bytes.begin(), bytes.end() };
+}
+
 void WritePng(const std::string& file, const cv::Mat& image)
 {
-	WriteAtomically(file, [&](const std::string& temporary) { return cv::imwrite(temporary, image); });
+	WriteText(file, PngOf(image));
 }
 
 }

@@ -36,6 +36,9 @@ double Bilinear(const cv::Mat& image, double x, double y);
 /// 8-bit sRGB picture of `linear` times `gain`, CV_8UC1 or CV_8UC3.
 cv::Mat ToDisplay(const cv::Mat& linear, double gain = 1);
 
+/// An 8-bit picture as a PNG file's bytes.
+std::string PngOf(const cv::Mat& image);
+
 /// Writes an 8-bit picture as PNG, atomically. Throws FileError.
 void WritePng(const std::string& file, const cv::Mat& image);
 

@@ -7,10 +7,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <new>
 
 namespace fs = std::filesystem;
 
@@ -20,8 +22,8 @@ namespace tiltcal
 namespace
 {
 
-/// Four floats a pixel, not compressed.
-const std::uintmax_t MAX_BYTES = 16 * static_cast<std::uintmax_t>(MAX_PIXELS);
+/// Of one file; more is no photograph. (MAX_PIXELS of three 16-bit colours, not compressed, are 1.2 GB.)
+const std::uintmax_t MAX_BYTES = 2'000'000'000;
 
 /// Pipes and devices are refused before they are opened: opening a pipe waits for its writer.
 std::uintmax_t CheckedLength(const std::string& file)
@@ -36,7 +38,7 @@ std::uintmax_t CheckedLength(const std::string& file)
 	if (length == 0)
 		throw FileError(fmt::format("{}: is empty (0 bytes)", file));
 	if (length > MAX_BYTES)
-		throw FileError(fmt::format("{}: has {} MB, more than a picture of {} megapixels", file, length / 1000000, MAX_PIXELS / 1000000));
+		throw FileError(fmt::format("{}: has {} MB; pictures of up to {} MB are read", file, length / 1000000, MAX_BYTES / 1000000));
 	return length;
 }
 
@@ -64,12 +66,28 @@ PictureFormat FormatOf(const std::string& file, const std::string& bytes)
 
 PictureFile ReadPictureFile(const std::string& file)
 {
-	std::string bytes(static_cast<size_t>(CheckedLength(file)), '\0');
+	const size_t length = static_cast<size_t>(CheckedLength(file));
 	errno = 0;
 	std::ifstream in(file, std::ios::binary);
-	if (!in.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
-		throw FileError(fmt::format("{}: cannot be read ({}); check its permissions", file, errno ? std::strerror(errno) : "it became shorter"));
+	const auto read = [&](std::string& bytes, size_t from, size_t to)
+	{
+		try
+		{
+			bytes.resize(to);
+		}
+		catch (const std::bad_alloc&)
+		{
+			throw FileError(fmt::format("{}: too large for this machine's memory", file));
+		}
+		if (!in.read(bytes.data() + from, static_cast<std::streamsize>(to - from)))
+			throw FileError(fmt::format("{}: cannot be read ({}); check its permissions", file, errno ? std::strerror(errno) : "it became shorter"));
+	};
+	// What is no picture is not read whole.
+	std::string bytes;
+	const size_t first = std::min<size_t>(length, 16);
+	read(bytes, 0, first);
 	const PictureFormat format = FormatOf(file, bytes);
+	read(bytes, first, length);
 	return { file, std::move(bytes), format };
 }
 

@@ -30,7 +30,7 @@ constexpr long long MAX_PIXELS = 200'000'000;
 constexpr long long MAX_SIDE = 65'535;
 
 /// The whole file. Throws FileError: missing, a folder, a pipe or device, not readable, empty,
-/// too long to be a picture of MAX_PIXELS, or of none of the formats.
+/// 2 GB and more, or of none of the formats.
 PictureFile ReadPictureFile(const std::string& file);
 
 /// Throws FileError unless a picture of this size is read; to be called with the header's

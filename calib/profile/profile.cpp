@@ -3,6 +3,8 @@
 #include "profile/profile.h"
 
 #include <tiltcal/error.h>
+#include "base/numbers.h"
+#include "base/plain_text.h"
 #include "picture/image_io.h"
 #include <tiltcal/transfer.h>
 
@@ -12,7 +14,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace tiltcal
 {
@@ -70,9 +71,15 @@ Line ParseLine(const std::string& text)
 {
 	Line line;
 	line.text = text;
-	char rest = 0;
-	if (std::sscanf(text.c_str(), "%lf,%lf,%lf,%lf%c", &line.x0, &line.y0, &line.x1, &line.y1, &rest) != 4)
-		throw UsageError(fmt::format("--line {}: give x0,y0,x1,y1 in pixels, such as 0,660,1799,660", text));
+	size_t at = 0;
+	for (double* const number : { &line.x0, &line.y0, &line.x1, &line.y1 })
+	{
+		const std::optional<double> value = NumberAt(text, at);
+		if (!value || (number == &line.y1 ? at != text.size() : text[at] != ','))
+			throw UsageError(fmt::format("--line {}: give x0,y0,x1,y1 in pixels, such as 0,660,1799,660", OneLine(text.substr(0, 60))));
+		*number = *value;
+		++at;
+	}
 	return line;
 }
 
@@ -134,7 +141,8 @@ std::string ComparisonJson(const Comparison& c, const std::string& file_a, const
 		json["lines"].push_back({ { "line", { p.line.x0, p.line.y0, p.line.x1, p.line.y1 } }, { "samples", p.samples.size() },
 			{ "mean_abs_error", p.mean_abs_error } });
 	json["mean_abs_error"] = c.mean_abs_error;
-	return json.dump(1, '\t') + "\n";
+	// A file name may be in another encoding than JSON's.
+	return json.dump(1, '\t', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 }

@@ -15,6 +15,8 @@
 namespace tiltcal
 {
 
+class FileSet;
+
 /// From (x0, y0) to (x1, y1), pixels; pixel centres at integers.
 struct Line
 {
@@ -65,8 +67,8 @@ std::string ComparisonText(const Comparison& comparison);
 std::string ComparisonJson(const Comparison& comparison, const std::string& file_a, const std::string& file_b);
 
 /// profile-N.csv (position,x,y,a,b) and profile.png (gnuplot) and side-by-side.png into
-/// `folder`. `a` is the first picture, linear. Throws FileError.
-void WriteComparison(const Comparison& comparison, const cv::Mat& a, const std::string& folder);
+/// `folder`, as parts of `set`. `a` is the first picture, linear. Throws FileError.
+void WriteComparison(const Comparison& comparison, const cv::Mat& a, const std::string& folder, FileSet& set);
 
 }
 

@@ -4,12 +4,15 @@
 
 #include "profile/profile.h"
 
+#include "base/file_set.h"
 #include "base/files.h"
 #include "program/gnuplot.h"
 #include "picture/image_io.h"
 
 #include <fmt/format.h>
 #include <opencv2/imgproc.hpp>
+
+#include <filesystem>
 
 namespace tiltcal
 {
@@ -33,21 +36,22 @@ std::string Csv(const LineProfile& p)
 	return csv;
 }
 
-void PlotProfiles(const Comparison& c, const std::string& folder)
+/// `data`: the files of the lines.
+void PlotProfiles(const Comparison& c, const std::vector<std::string>& data, const std::string& folder, FileSet& set)
 {
 	std::string script = fmt::format("set datafile separator ','\nset multiplot layout {},1\nset yrange [0:260]\nset ylabel 'brightness'\n"
 		"set grid lc rgb '#dddddd'\nset key bottom right horizontal\nset lmargin 8\n", c.lines.size());
 	for (size_t k = 0; k < c.lines.size(); ++k)
 	{
 		const auto& colour = COLOURS[k % COLOUR_COUNT];
-		const std::string file = GnuplotString(CsvName(folder, k));
+		const std::string file = GnuplotString(data[k]);
 		script += fmt::format("set title {}\nset xlabel 'position on the line [px]'\n"
 			"plot {} every ::1 using 1:4 with lines lw 2 lc rgb '#{:02x}{:02x}{:02x}' title 'A', {} every ::1 using 1:5 with lines lw 1.2 lc rgb '#202020' title 'B, matched'\n",
 			GnuplotString(fmt::format("{} line {}: mean absolute error {:.2f}", colour.name, c.lines[k].line.text, c.lines[k].mean_abs_error)),
 			file, colour.r, colour.g, colour.b, file);
 	}
 	script += "unset multiplot\n";
-	Plot(Join(folder, "profile.png"), script, 1100, 80 + 330 * static_cast<int>(c.lines.size()));
+	Plot(set, Join(folder, "profile.png"), script, 1100, 80 + 330 * static_cast<int>(c.lines.size()));
 }
 
 cv::Mat WithLines(const cv::Mat& linear, const Comparison& c)
@@ -71,16 +75,22 @@ cv::Mat WithLines(const cv::Mat& linear, const Comparison& c)
 
 }
 
-void WriteComparison(const Comparison& c, const cv::Mat& a, const std::string& folder)
+void WriteComparison(const Comparison& c, const cv::Mat& a, const std::string& folder, FileSet& set)
 {
+	std::vector<std::string> data;
 	for (size_t k = 0; k < c.lines.size(); ++k)
-		WriteText(CsvName(folder, k), Csv(c.lines[k]));
+		data.push_back(set.Text(CsvName(folder, k), Csv(c.lines[k])));
+	// Those of an earlier run with more lines.
+	for (size_t k = c.lines.size(); std::filesystem::exists(CsvName(folder, k)); ++k)
+		set.Remove(CsvName(folder, k));
 	if (!c.lines.empty())
-		PlotProfiles(c, folder);
+		PlotProfiles(c, data, folder, set);
+	else
+		set.Remove(Join(folder, "profile.png"));
 	cv::Mat both;
 	const cv::Mat gap(a.rows, std::max(4, a.cols / 100), CV_8UC3, cv::Scalar::all(255));
 	cv::hconcat(std::vector<cv::Mat>{ WithLines(Luminance(a), c), gap, WithLines(c.matched, c) }, both);
-	WritePng(Join(folder, "side-by-side.png"), both);
+	set.Text(Join(folder, "side-by-side.png"), PngOf(both));
 }
 
 }

@@ -3,6 +3,8 @@
 #ifndef TILTCAL_GNUPLOT_H
 #define TILTCAL_GNUPLOT_H
 
+#include "base/file_set.h"
+
 #include <string>
 
 namespace tiltcal
@@ -13,7 +15,10 @@ namespace tiltcal
 /// or fails: a plot is an extra, not a reason to lose the results.
 bool Plot(const std::string& file, const std::string& script, int width, int height);
 
-/// Text as a gnuplot string in single quotes.
+/// The same as one file of a set.
+bool Plot(FileSet& set, const std::string& file, const std::string& script, int width, int height);
+
+/// Text as an expression of gnuplot: in single quotes, in which nothing is special, and pieces of double quotes for control characters.
 std::string GnuplotString(const std::string& text);
 
 }

@@ -11,7 +11,10 @@
 #include <spdlog/spdlog.h>
 #include <tiltcal/error.h>
 
+#include <clocale>
+#include <csignal>
 #include <cstdio>
+#include <locale>
 
 namespace tiltcal
 {
@@ -19,9 +22,18 @@ namespace tiltcal
 namespace
 {
 
+/// Nothing in a file name moves the terminal's cursor. (Bytes of other encodings stay: the terminal may show them.)
+std::string Harmless(std::string text)
+{
+	for (char& c : text)
+		if ((static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t') || c == 0x7F)
+			c = '?';
+	return text;
+}
+
 int Fail(const std::string& name, ExitCode code, const std::string& message)
 {
-	fmt::print(stderr, "{}: error: {}\n", name, SpelledAsOptions(message));
+	fmt::print(stderr, "{}: error: {}\n", name, Harmless(SpelledAsOptions(message)));
 	return code;
 }
 
@@ -42,6 +54,11 @@ int RunProgram(const std::string& name, const std::function<int()>& run)
 {
 	spdlog::set_default_logger(spdlog::stderr_logger_mt(name));
 	spdlog::set_pattern(name + ": %v");
+	// Options are numbers with points, whatever a preloaded library made of LC_ALL.
+	std::setlocale(LC_ALL, "C");
+	std::locale::global(std::locale::classic());
+	// Over `ulimit -f` is an error of the write, as a full disk is.
+	std::signal(SIGXFSZ, SIG_IGN);
 	try
 	{
 		const int code = run();
@@ -69,7 +86,7 @@ Log ProgramLog()
 {
 	return Log([](Severity severity, const std::string& message)
 	{
-		spdlog::log(severity == Severity::WARNING ? spdlog::level::warn : spdlog::level::info, "{}", SpelledAsOptions(message));
+		spdlog::log(severity == Severity::WARNING ? spdlog::level::warn : spdlog::level::info, "{}", Harmless(SpelledAsOptions(message)));
 	});
 }
 

@@ -2,6 +2,8 @@
 
 #include "report/html.h"
 
+#include "base/plain_text.h"
+
 #include <fmt/format.h>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -14,21 +16,6 @@ namespace tiltcal::html
 
 namespace
 {
-
-/// Length of the UTF-8 character at text[i] (RFC 3629), or 0.
-size_t CharacterLength(const std::string& text, size_t i)
-{
-	const auto byte = [&](size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0u; };
-	const unsigned first = byte(i);
-	const size_t length = first < 0x80 ? 1 : first >= 0xC2 && first < 0xE0 ? 2 : first >= 0xE0 && first < 0xF0 ? 3 : first >= 0xF0 && first < 0xF5 ? 4 : 0;
-	for (size_t k = 1; k < length; ++k)
-		if ((byte(i + k) & 0xC0) != 0x80)
-			return 0;
-	// Overlong forms, surrogates, beyond U+10FFFF.
-	const unsigned second = byte(i + 1);
-	const bool bad = (first == 0xE0 && second < 0xA0) || (first == 0xED && second > 0x9F) || (first == 0xF0 && second < 0x90) || (first == 0xF4 && second > 0x8F);
-	return bad ? 0 : length;
-}
 
 std::string Base64(const std::vector<unsigned char>& bytes)
 {
@@ -63,7 +50,7 @@ std::string Escape(const std::string& text)
 	std::string out;
 	for (size_t i = 0; i < text.size();)
 	{
-		const size_t length = CharacterLength(text, i);
+		const size_t length = Utf8Length(text, i);
 		const unsigned char c = static_cast<unsigned char>(text[i]);
 		if (length == 0 || c < 0x20 || c == 0x7F)
 			out += "\xEF\xBF\xBD";

@@ -3,13 +3,15 @@
 #include "report/write_csv.h"
 
 #include <tiltcal/photo.h>
+#include "base/plain_text.h"
 #include <fmt/format.h>
 
 namespace tiltcal
 {
 
-std::string CsvField(const std::string& text)
+std::string CsvField(const std::string& any)
 {
+	const std::string text = CleanUtf8(any);
 	if (text.find_first_of(",\"\r\n") == std::string::npos)
 		return text;
 	std::string quoted = "\"";

@@ -260,7 +260,8 @@ std::string CalibrationJson(const Calibration& c)
 	json["render"] = SolutionJson(c, c.render, c.RenderGeometry());
 	json["render"]["note"] = "the camera without distortion that the .inc files take where TiltCal_Distortion is set to 0, or where this lens needs no distortion";
 	json["program"] = "tiltcal " TILTCAL_VERSION;
-	return json.dump(1, '\t') + "\n";
+	// A file name may be in another encoding than JSON's.
+	return json.dump(1, '\t', false, Json::error_handler_t::replace) + "\n";
 }
 
 }

@@ -5,9 +5,12 @@
 #include "model/predict.h"
 #include <tiltcal/calibrate.h>
 #include "effects/effects.h"
+#include "base/file_set.h"
 #include "base/files.h"
 #include "program/gnuplot.h"
+#include "program/process.h"
 #include "picture/image_io.h"
+#include "report/old_set.h"
 #include "report/overlay.h"
 #include "report/report_html.h"
 #include "calibrate/verdict.h"
@@ -130,11 +133,10 @@ std::string BlurCsv(const Calibration& c, size_t s)
 	return csv;
 }
 
-void PlotBlur(const Calibration& c, size_t s, const std::string& folder)
+void PlotBlur(const Calibration& c, size_t s, const std::string& folder, FileSet& set)
 {
 	const std::string& name = c.task.states[s].name;
-	const std::string data = Join(folder, "blur-" + name + ".csv");
-	WriteText(data, BlurCsv(c, s));
+	const std::string data = set.Text(Join(folder, "blur-" + name + ".csv"), BlurCsv(c, s));
 	double most = 1;
 	for (const Photo& photo : c.task.states[s].photos)
 		for (const Edge& e : photo.edges)
@@ -150,7 +152,7 @@ void PlotBlur(const Calibration& c, size_t s, const std::string& folder)
 		"unset multiplot\n",
 		GnuplotString(fmt::format("Blur width, state {} (model {}, {:.2f} px RMS)", name, NameOf(c.solution.model), c.solution.states[s].rms_blur)),
 		1.05 * most, photos, GnuplotString(data));
-	Plot(Join(folder, "blur-" + name + ".png"), script, 900, 900);
+	Plot(set, Join(folder, "blur-" + name + ".png"), script, 900, 900);
 }
 
 }
@@ -188,22 +190,28 @@ std::string SummaryTable(const Calibration& c)
 void WriteEverything(const Calibration& c, const RunNotes& notes, const ReadGrey& read, const std::string& folder)
 {
 	ReportPictures pictures(c.task);
+	FileSet set;
+	CatchInterrupts();   // so that the set takes its temporary files away
 	for (size_t s = 0; s < c.task.states.size(); ++s)
 	{
 		spdlog::info("state {}: drawing overlays and plot", c.task.states[s].name);
 		for (size_t p = 0; p < c.task.states[s].photos.size(); ++p)
 		{
 			const cv::Mat overlay = DrawOverlay(read(s, p), c, s, p);
-			WritePng(Join(folder, fmt::format("overlay-{}-{}.png", c.task.states[s].name, p + 1)), overlay);
+			set.Text(Join(folder, fmt::format("overlay-{}-{}.png", c.task.states[s].name, p + 1)), PngOf(overlay));
 			pictures.Add(overlay);
+			CheckInterrupt();
 		}
-		PlotBlur(c, s, folder);
-		WriteText(Join(folder, "camera-" + c.task.states[s].name + ".inc"), CameraInc(c, s));
+		PlotBlur(c, s, folder, set);
+		set.Text(Join(folder, "camera-" + c.task.states[s].name + ".inc"), CameraInc(c, s));
 	}
-	WriteText(Join(folder, "report.txt"), SummaryTable(c));
-	WriteText(Join(folder, "calibration.json"), CalibrationJson(c));
+	set.Text(Join(folder, "report.txt"), SummaryTable(c));
 	spdlog::info("writing report.html");
-	WriteText(Join(folder, "report.html"), ReportHtml(c, notes, pictures));
+	set.Text(Join(folder, "report.html"), ReportHtml(c, notes, pictures));
+	RemoveOldSet(folder, c, set);
+	// Last: what is read as the calibration is there when all the rest is.
+	set.Text(Join(folder, "calibration.json"), CalibrationJson(c));
+	set.Commit();
 }
 
 }

@@ -3,13 +3,13 @@
 #include "target/target.h"
 
 #include <tiltcal/error.h>
-#include "base/files.h"
+#include "base/file_set.h"
+#include "base/numbers.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 
 namespace tiltcal
@@ -93,9 +93,9 @@ std::string NamesOfPapers()
 /// The page's size; `name` receives what to call it.
 Size ChoosePaper(const Board& t, const std::string& text, const Size& needed, std::string& name)
 {
-	double w = 0, h = 0;
-	char rest = 0;
-	if (std::sscanf(text.c_str(), "%lfx%lf%c", &w, &h, &rest) == 2 && w > 0 && h > 0 && std::isfinite(w * h))
+	const size_t x = std::min(text.find('x'), text.size());
+	const double w = FiniteNumber(text.substr(0, x)).value_or(0), h = FiniteNumber(text.substr(std::min(x + 1, text.size()))).value_or(0);
+	if (w > 0 && h > 0 && std::isfinite(w * h))
 	{
 		name = fmt::format("{:g} x {:g} mm", w, h);
 		if (!Holds({ w, h }, needed))
@@ -193,12 +193,19 @@ void CheckTargetSuffix(const std::string& file)
 
 void WriteTarget(const TargetPage& page, const std::string& file)
 {
+	FileSet set;
+	WriteTarget(page, file, set);
+	set.Commit();
+}
+
+void WriteTarget(const TargetPage& page, const std::string& file, FileSet& set)
+{
 	CheckTargetSuffix(file);
 	const std::string suffix = std::filesystem::path(file).extension().string();
 	if (suffix == ".inc")
-		WriteText(file, TargetInc(page));
+		set.Text(file, TargetInc(page));
 	else
-		WriteAtomically(file, [&](const std::string& temporary) { return (suffix == ".svg" ? PrintSvg : PrintPdf)(page, temporary); });
+		set.Write(file, [&](const std::string& temporary) { return (suffix == ".svg" ? PrintSvg : PrintPdf)(page, temporary); });
 }
 
 }

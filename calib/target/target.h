@@ -14,6 +14,8 @@
 namespace tiltcal
 {
 
+class FileSet;
+
 /// A point of the page, mm.
 struct PagePoint
 {
@@ -54,7 +56,10 @@ PagePoint Origin(const TargetPage& page);
 bool LooksTheSameTurned(const Board& target);
 
 /// Writes FILE by its suffix: .svg and .pdf (target_print.cpp, cairo, true size), .inc
-/// (TargetInc). Whole files only. Throws UsageError (suffix), FileError.
+/// (TargetInc), as part of `set`. Throws UsageError (suffix), FileError.
+void WriteTarget(const TargetPage& page, const std::string& file, FileSet& set);
+
+/// The same alone.
 void WriteTarget(const TargetPage& page, const std::string& file);
 
 /// Throws UsageError unless the suffix is one that WriteTarget knows.

@@ -13,6 +13,7 @@
 #include "measure/measure.h"
 #include "measure/measure_colours.h"
 #include "camera/pose.h"
+#include "support/comma_locale.h"
 #include "support/shaded_lens.h"
 #include "support/thin_lens_picture.h"
 #include "effects/vignetting.h"
@@ -324,6 +325,15 @@ Calibration Everything(const char* effects)
 	return Calibrate(c.task, { Model::PLANE, Poses::SHARED, Refinement::NONE, ParseEffects(effects) });
 }
 
+}
+
+TEST(Effects, AreWrittenWithPointsInAnyLocale)
+{
+	const Calibration c = Everything("vignetting_natural,vignetting_optical,chromatic_lateral,chromatic_axial,blades");
+	const std::string inc = CameraInc(c, 1), json = CalibrationJson(c);
+	const CommaLocale comma;
+	EXPECT_EQ(CameraInc(c, 1), inc);
+	EXPECT_EQ(CalibrationJson(c), json);
 }
 
 TEST(Effects, ReachTheIncAndThePoseThroughTheJson)

@@ -3,7 +3,9 @@
 // What `tiltcal calibrate` wrote for the photographs in scenes/boxes/photos (the fixture
 // calib.photographs.calibrate ran it): the acceptance numbers of issue 2.
 
+#include "model/state_names.h"
 #include "support/page_check.h"
+#include <tiltcal/error.h>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,6 +17,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <regex>
 #include <sstream>
 
 namespace
@@ -259,6 +262,24 @@ TEST(Photographs, FilesAreThere)
 		EXPECT_NE(text.str().find(part), std::string::npos) << part;
 	for (const char* const part : { "\tchromatic", "\tblades" })
 		EXPECT_EQ(text.str().find(part), std::string::npos) << part;
+}
+
+/// No other state may be called what a .inc declares (model/state_names.cpp has the list).
+TEST(Photographs, IdentifiersOfTheIncAreTaken)
+{
+	std::ostringstream text;
+	text << std::ifstream(FOLDER + "/camera-plus5.inc").rdbuf();
+	const std::string inc = text.str();
+	const std::regex declared("#(?:declare|macro) TiltCal_([A-Za-z0-9_]+)");
+	size_t seen = 0;
+	for (auto at = std::sregex_iterator(inc.begin(), inc.end(), declared); at != std::sregex_iterator(); ++at, ++seen)
+	{
+		const std::string name = (*at)[1];
+		if (name == "plus5")
+			continue;
+		EXPECT_THROW(tiltcal::CheckStateNames({ "plus5", name }), tiltcal::Error) << name;
+	}
+	EXPECT_GT(seen, 30u);
 }
 
 }
