@@ -72,14 +72,14 @@ Normal Assemble(const Vector& p, const std::vector<EdgeSample>& samples, const E
 	return n;
 }
 
-/// RobustSigma, and never 0.
+/// RobustSigma, and at least what the shape of a straight edge leaves out, so that in a picture without noise this is not taken for specks.
 double ResidualScale(const Vector& p, const std::vector<EdgeSample>& samples, const EdgeProfile& profile)
 {
 	std::vector<double> r;
 	r.reserve(samples.size());
 	for (const EdgeSample& sample : samples)
 		r.push_back(sample.value - Predict(p, sample, profile, nullptr));
-	return std::max(RobustSigma(std::move(r)), 1e-6 * std::abs(p[HIGH] - p[LOW]) + 1e-12);
+	return std::max(RobustSigma(std::move(r)), 2e-3 * std::abs(p[HIGH] - p[LOW]) + 1e-12);
 }
 
 /// One Levenberg-Marquardt descent at a fixed robust scale. False: singular.

@@ -151,7 +151,8 @@ Correction CorrectionOf(const Camera& camera, const Vec3<double>& A, const Vec3<
 	const std::vector<EdgeSample> samples = Window(e, s, length, { lean(forward > 0 ? A : B), lean(forward > 0 ? B : A) });
 	const double squared = camera.SquaredBlur(at, EdgeNormal(e)[0] * Vec2::UnitX() + EdgeNormal(e)[1] * Vec2::UnitY());
 	EdgeFit straight;
-	straight.high = 1;
+	straight.low = e.low;
+	straight.high = e.high;
 	straight.radius = SignedRoot(0.25 * squared);
 	const EdgeChange change = FirstOrderChange(samples, LoneEdge(normal.x(), normal.y()), EdgeThroughLens(camera, A, B, at, middle, normal, straight.radius), straight);
 	c.at_corners = -(change.offset + change.slope * s);

@@ -7,6 +7,7 @@
 #include "measure/find_circles.h"
 #include "measure/measure_circles.h"
 #include "measure/spread_order.h"
+#include "edge/soft_radius.h"
 #include "support/thin_lens_picture.h"
 
 #include <gtest/gtest.h>
@@ -62,7 +63,7 @@ Errors Measure(const Scene& scene, const Board& board, const cv::Mat& picture, c
 		const double d = 0.5 * k.blur - BlurRadius(scene, k.board_column * board.square_mm, k.board_row * board.square_mm, nx / length, ny / length);
 		e.blur += d * d;
 		e.blur_mean += d;
-		e.blur_sigmas += std::pow(2 * d / k.blur_sigma, 2);
+		e.blur_sigmas += std::pow((SoftDiameter(k.blur) - SoftDiameter(k.blur - 2 * d)) / k.blur_sigma, 2);
 		e.ratio += k.BlurRatio();
 	}
 	const double n = double(photo.corners.size()), m = double(photo.edges.size());
