@@ -6,6 +6,7 @@
 #include "effects/chromatic_fit.h"
 #include <tiltcal/error.h>
 #include "calibrate/quiet.h"
+#include "calibrate/check_light.h"
 #include "calibrate/exif_check.h"
 #include "calibrate/measure_all.h"
 #include "calibrate/verdict.h"
@@ -331,6 +332,8 @@ Calibration Calibrate(const Task& measured, const CalibrateOptions& o)
 	c.chromatic = EstimateChromatic(c);
 	LogEffects(c, log);
 	ChooseEffects(o.effects, c);
+	if (model != Model::PAPER)
+		c.light = CheckLight(c);
 	c.verdict = Judge(c);
 	return c;
 }

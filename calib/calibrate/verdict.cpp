@@ -2,6 +2,8 @@
 
 #include "calibrate/verdict.h"
 
+#include "calibrate/check_light.h"
+
 #include "solve/blur_fit.h"
 #include <tiltcal/calibrate.h>
 #include "base/robust.h"
@@ -35,6 +37,8 @@ public:
 			OnePhotograph(s);
 			BlurAgainstGeometry(s);
 		}
+		for (const Remark& remark : JudgeLight(c.light))
+			Say(remark.grade, remark.text);
 		Priors();
 		Correlations();
 		Limit();

@@ -6,6 +6,7 @@
 #include "measure/bright_patches.h"
 #include <tiltcal/error.h>
 #include "picture/image_io.h"
+#include "measure/clipped.h"
 #include "measure/measure_circles.h"
 #include "measure/measure_colours.h"
 #include "measure/measure_edge.h"
@@ -222,9 +223,7 @@ void MeasureEdges(const cv::Mat& grey, const Board& board, Photo& photo, const E
 			RefineCorners(photo);
 		}
 	RefuseTooBlurred(all, photo.file);
-	const auto clipped = std::count_if(photo.edges.begin(), photo.edges.end(), [](const Edge& e) { return e.high > 0.995; });
 	photo.edges_dropped = static_cast<int>(tried - photo.edges.size());
-	photo.saturated_share = photo.edges.empty() ? 0 : double(clipped) / double(photo.edges.size());
 }
 
 Photo MeasurePhoto(const std::string& file, const Board& board, const Transfer& transfer, const DetectOptions& options, const EdgeChoice& choice, cv::Mat* grey)
@@ -241,6 +240,7 @@ Photo MeasurePhoto(const std::string& file, const Board& board, const Transfer& 
 	}
 	else
 		MeasureCircles(linear, board, options, photo, choice);
+	photo.saturated_share = ClippedShare(ClippedPixels(picture), photo);
 	MeasureWhite(picture, board, photo);
 	MeasureColours(picture, board, photo);
 	if (grey)

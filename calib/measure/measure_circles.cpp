@@ -239,8 +239,6 @@ void MeasureCircles(const cv::Mat& grey, const Board& board, const DetectOptions
 			photo.edges.push_back(m.edge);
 	std::sort(photo.edges.begin(), photo.edges.end(), [](const Edge& a, const Edge& b) { return std::tuple(a.row, a.column, a.arc) < std::tuple(b.row, b.column, b.arc); });
 	photo.edges_dropped = int(all.size() - photo.edges.size());
-	const auto clipped = std::count_if(photo.edges.begin(), photo.edges.end(), [](const Edge& e) { return e.high > 0.995; });
-	photo.saturated_share = photo.edges.empty() ? 0 : double(clipped) / double(photo.edges.size());
 }
 
 }

@@ -253,6 +253,12 @@ std::string CalibrationJson(const Calibration& c)
 	for (const LeftOut& l : c.solution.left_out)
 		json["left_out"].push_back({ { "state", c.task.states[l.state].name }, { "file", c.task.states[l.state].photos[l.photo].file },
 			{ "tilt_change_deg", l.tilt_change }, { "rms_blur_px", l.rms_blur } });
+	if (c.solution.model != Model::PAPER)
+	{
+		json["light"]["clipped_edges_share"] = c.light.clipped_share;
+		Put(json["light"], "sharpening", "_px2", c.light.sharpening);
+		Put(json["light"], "bend", "", c.light.bend);
+	}
 	json["verdict"]["grade"] = NameOf(c.verdict.grade);
 	json["verdict"]["remarks"] = Json::array();
 	for (const Remark& remark : c.verdict.remarks)

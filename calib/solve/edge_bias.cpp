@@ -64,14 +64,19 @@ struct Camera
 };
 
 /// An edge from A to B through that camera, exactly: pixel p sees of it what the lens sees through p's point of focus F. The plane
-/// through A, B and F cuts the lens's disc in a line; on one side of it are the lens points that see the bright side.
+/// through A, B and F cuts the lens's disc in a line; on one side of it are the lens points that see the bright side. The lens's own blur, and a demosaicing's, is
+/// no disc: it widens the pixel.
 class EdgeThroughLens : public EdgeProfile
 {
 public:
 	/// `middle` and `normal` (to the bright side): of the line in the picture from which samples count; `radius`: of the blur, about; px.
 	EdgeThroughLens(const Camera& c, const Vec3<double>& a, const Vec3<double>& b, const Vec3<double>& at, const Vec2& mid, const Vec2& n, double r)
-		: camera(c), A(a), along(b - a), focus(c.TouchingPlane(at)), middle(mid), normal(n), radius(std::max(r, 0.02)), lone(n.x(), n.y())
+		: camera(c), A(a), along(b - a), focus(c.TouchingPlane(at)), middle(mid), normal(n), radius(std::max(r, 0.02))
 	{
+		// A disc of the diameter F has the variance F^2/16 across, a box of the width a a^2/12: half of the former is put on each of the pixel's two.
+		const double own = 6 * std::max(c.floor_squared, 0.0) / 16;
+		box_a = std::sqrt(n.x() * n.x() + own);
+		box_b = std::sqrt(n.y() * n.y() + own);
 		sign = Dot(A, Cross(along, camera.Direction(middle + 2 * normal))) > Dot(A, Cross(along, camera.Direction(middle - 2 * normal))) ? 1 : -1;
 	}
 
@@ -81,8 +86,8 @@ public:
 		const double step = std::min(0.5, 0.3 * radius), x = std::clamp(sample.x, -radius, radius);
 		const Vec2 p = middle + x * normal + sample.s * Vec2(normal.y(), -normal.x());
 		const double before = Height(p - step * normal), after = Height(p + step * normal);
-		const double slope = (after - before) / (2 * step), floor = 0.25 * std::max(camera.floor_squared, 0.0);
-		return lone.At({ 0.5 * (before + after) / slope + sample.x - x, 0, 0 }, 0, 0, std::sqrt(1 / (slope * slope) + floor));
+		const double slope = (after - before) / (2 * step);
+		return PixelEdgeResponse(0.5 * (before + after) / slope + sample.x - x, std::abs(1 / slope), box_a, box_b);
 	}
 
 private:
@@ -98,8 +103,7 @@ private:
 	Vec3<double> A, along, focus;
 	Vec2 middle, normal;
 	double radius;
-	LoneEdge lone;
-	double sign = 1;
+	double box_a, box_b, sign = 1;
 };
 
 /// A grid over the pixels that were used, of the middles of cells: finer across, where the light changes. The edges that cross at the ends lean by `lean`, px

@@ -230,6 +230,15 @@ struct Effect
 	std::string note;                        ///< more to say; may be empty
 };
 
+/// What the camera did to the light.
+struct LightCheck
+{
+	double clipped_share = 0;   ///< of the edges: their bright side is at the file's white level
+	Estimate sharpening;        ///< px^2: how much smaller squared blur diameters are than blur can make them
+	/// How far blurred edges lie to the bright side of where the camera puts them, over their blur's radius: 0 in linear light.
+	Estimate bend;
+};
+
 enum class Grade
 {
 	GOOD,   ///< nothing speaks against it
@@ -268,6 +277,7 @@ struct Calibration
 	Vignetting vignetting;
 	Chromatic chromatic;
 	std::vector<Effect> effects;   ///< of all; empty before they are chosen
+	LightCheck light;            ///< of the exact models
 	Verdict verdict;             ///< of the exact models; the paper's is not judged
 
 	/// Geometry that belongs to the calibration's own solution (the paper has its own).

@@ -39,9 +39,10 @@ void AddNoise(cv::Mat& picture, const Light& light, unsigned seed)
 }
 
 /// The sensor's codes over full scale, clipped, as three channels.
-cv::Mat Expose(cv::Mat picture, const Light& light, unsigned seed)
+cv::Mat Expose(const cv::Mat& negative, const Light& light, unsigned seed)
 {
-	picture = picture * light.exposure;
+	cv::Mat picture;
+	negative.convertTo(picture, CV_32F, light.exposure);   // a copy
 	AddNoise(picture, light, seed);
 	const double levels = std::ldexp(1.0, light.bits) - 1;
 	cv::Mat codes;

@@ -37,7 +37,7 @@ Scene SceneOf(const Camera& c, double tilt, double direction)
 	scene.aperture = c.Aperture();
 	scene.lens_normal = synthetic::LensNormal(tilt, direction);
 	scene.k1 = c.k1;
-	if (const char* n = getenv("LENS_POINTS")) scene.lens_points = atoi(n); else scene.lens_points = 800;
+	scene.lens_points = 800;   // 300 leave 1e-4 of a blur
 	synthetic::FocusOn(scene, c.ImageDistance(), c.focal_length);
 	return scene;
 }

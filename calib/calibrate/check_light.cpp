@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "calibrate/check_light.h"
+
+#include "model/footprint.h"
+#include "model/predict.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tiltcal
+{
+
+namespace
+{
+
+/// Share of clipped edges that is worth a word, and that spoils the blur: a bright side that is known too low by x narrows the blur by some x/2.
+const double SOME_CLIPPED = 0.02, MANY_CLIPPED = 0.2;
+/// px^2, of diameters: what an unsharp mask of 1 px and an amount of 0.05 takes off.
+const double SHARPENED = 0.1;
+/// Shift over radius. An exponent wrong by 1 % gives 0.004: m = e^1.01 = e + 0.01 e log e, at e = 1/2 0.0035, over the slope 2/(pi R).
+const double BENT = 0.004;
+const double CERTAIN = 3;   // sigmas
+
+/// Slope of places by radii of one photograph, least squares through 0.
+double SlopeOf(const Calibration& c, size_t s, size_t p, double& weight)
+{
+	double ab = 0, aa = 0;
+	for (const Edge& e : c.task.states[s].photos[p].edges)
+	{
+		const Point at = Reproject(c.task, c.geometry, s, p, e.board_column, e.board_row), normal = EdgeNormal(e);
+		const double shift = (e.x - at[0]) * normal[0] + (e.y - at[1]) * normal[1], radius = 0.5 * PredictedBlur(c, s, p, e);
+		ab += shift * radius;
+		aa += radius * radius;
+	}
+	weight = aa;
+	return aa > 0 ? ab / aa : 0;
+}
+
+}
+
+LightCheck CheckLight(const Calibration& c)
+{
+	LightCheck light;
+	light.sharpening = { -c.solution.psf_floor_squared.value, c.solution.psf_floor_squared.sigma };
+	std::vector<double> slopes, weights;
+	double edges = 0, clipped = 0;
+	for (size_t s = 0; s < c.task.states.size(); ++s)
+		for (size_t p = 0; p < c.task.states[s].photos.size(); ++p)
+		{
+			const Photo& photo = c.task.states[s].photos[p];
+			clipped += photo.saturated_share * double(photo.edges.size());
+			edges += double(photo.edges.size());
+			double weight = 0;
+			slopes.push_back(SlopeOf(c, s, p, weight));
+			weights.push_back(weight);
+		}
+	light.clipped_share = edges > 0 ? clipped / edges : 0;
+	double sum = 0, all = 0, squares = 0;
+	for (size_t k = 0; k < slopes.size(); ++k)
+	{
+		sum += weights[k] * slopes[k];
+		all += weights[k];
+	}
+	if (!(all > 0) || slopes.size() < 2)
+		return light;
+	light.bend.value = sum / all;
+	// Photographs differ by more than their edges' noise: they are the independent draws.
+	for (size_t k = 0; k < slopes.size(); ++k)
+		squares += std::pow(weights[k] / all * (slopes[k] - light.bend.value), 2);
+	light.bend.sigma = std::sqrt(squares * double(slopes.size()) / double(slopes.size() - 1));
+	return light;
+}
+
+std::vector<Remark> JudgeLight(const LightCheck& light)
+{
+	// Clipping bends and steepens edges too.
+	if (light.clipped_share > SOME_CLIPPED)
+		return { { light.clipped_share > MANY_CLIPPED ? Grade::POOR : Grade::FAIR, fmt::format("{:.0f} % of the edges have a clipped bright side, which makes their blur, and "
+			"the aperture, too small: expose less, so that the board's white stays below the file's greatest value in every colour", 100 * light.clipped_share) } };
+	std::vector<Remark> remarks;
+	if (light.sharpening.value > SHARPENED && light.sharpening.value > CERTAIN * light.sharpening.sigma)
+		remarks.push_back({ light.sharpening.value > 10 * SHARPENED ? Grade::POOR : Grade::FAIR, fmt::format("sharp edges are steeper than their pixels can make them (by {:.2f} +- {:.2f} px² of blur): "
+			"the photographs were sharpened, or given contrast, which makes blur, aperture and tilt wrong. Develop the raw files without sharpening, or set the camera's sharpness and contrast to their least",
+			light.sharpening.value, light.sharpening.sigma) });
+	if (std::abs(light.bend.value) > BENT && std::abs(light.bend.value) > CERTAIN * light.bend.sigma)
+		remarks.push_back({ std::abs(light.bend.value) > 5 * BENT ? Grade::POOR : Grade::FAIR, fmt::format("blurred edges lie {:.3f} +- {:.3f} of their blur's radius to the {} side of where the sharp ones "
+			"say: the values are not the light that `transfer` makes of them. A tone curve in the camera does this, and biases blur and aperture. Develop the raw files with a linear curve, or say the right `transfer`",
+			std::abs(light.bend.value), light.bend.sigma, light.bend.value > 0 ? "bright" : "dark") });
+	return remarks;
+}
+
+}

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// What a camera does to the light, and what the verdict says of it.
+
+#include "calibrate/check_light.h"
+#include "camera_light.h"
+#include "closed_loop.h"
+#include "measure/clipped.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace
+{
+
+using namespace tiltcal;
+using namespace cameras;
+
+/// The photographs, once for all kinds of light: two states, three poses each, 0.3 megapixels.
+const Negatives& Photographs()
+{
+	static const Negatives negatives = []
+	{
+		Camera camera = RandomCamera(7);
+		camera.photos = 3;
+		return Photograph(camera, 7);
+	}();
+	return negatives;
+}
+
+Calibration Developed(const char* light)
+{
+	const Answer answer = CloseTheLoop(Photographs(), LightOf(light), 1, testing::TempDir() + "light-" + light);
+	EXPECT_EQ(answer.refusal, "") << light;
+	return answer.calibration;
+}
+
+TEST(Light, LinearLightIsGood)
+{
+	const Calibration c = Developed("snr200");
+	// 3 sigma, the bound above which it is said; by chance once in 370.
+	EXPECT_LT(std::abs(c.light.bend.value), std::max(3 * c.light.bend.sigma, 0.004));
+	EXPECT_EQ(c.light.clipped_share, 0);
+	EXPECT_TRUE(JudgeLight(c.light).empty());
+}
+
+// Each biases blur by more than its sigma (the aperture by 7 to 25 %), so none may be good.
+TEST(Light, SharpenedIsSaid) { EXPECT_GT(Developed("sharpened").verdict.grade, Grade::GOOD); }
+TEST(Light, ToneCurveIsSaid)
+{
+	const Calibration c = Developed("tone-curve");
+	EXPECT_GT(std::abs(c.light.bend.value), 5 * c.light.bend.sigma);
+	EXPECT_GT(c.verdict.grade, Grade::GOOD);
+}
+TEST(Light, ClippedAboveTheFilesOwnWhiteIsPoor)
+{
+	// White of 1.28 of full scale: every bright side.
+	for (const char* light : { "12bit-in-16-clipped", "clipped-exr" })
+	{
+		const Calibration c = Developed(light);
+		EXPECT_GT(c.light.clipped_share, 0.9) << light;
+		EXPECT_EQ(c.verdict.grade, Grade::POOR) << light;
+	}
+}
+
+cv::Mat Noisy(double dark, double bright, double noise, double white)
+{
+	cv::Mat picture(200, 200, CV_32FC1);
+	std::mt19937 random(1);
+	std::normal_distribution<float> normal(0, float(noise));
+	for (int y = 0; y < picture.rows; ++y)
+		for (int x = 0; x < picture.cols; ++x)
+			picture.at<float>(y, x) = std::min(float(white), float(x < 100 ? dark : bright) + normal(random));
+	return picture;
+}
+
+TEST(Light, WhiteLevels)
+{
+	EXPECT_TRUE(ClippedPixels(Noisy(0.05, 0.8, 0.01, 1)).empty());
+	EXPECT_TRUE(ClippedPixels(Noisy(0.05, 0.8, 0, 1)).empty()) << "a render without noise";
+	EXPECT_GT(cv::countNonZero(ClippedPixels(Noisy(0.05, 0.8, 0.01, 0.75))), 19000);
+	EXPECT_GT(cv::countNonZero(ClippedPixels(Noisy(5, 80, 1, 80))), 9000) << "half of the bright side, in floats of another unit";
+	// One channel of three.
+	cv::Mat colour;
+	cv::merge(std::vector<cv::Mat>{ Noisy(0.05, 0.5, 0.01, 1), Noisy(0.05, 0.9, 0.01, 0.85), Noisy(0.05, 0.5, 0.01, 1) }, colour);
+	EXPECT_GT(cv::countNonZero(ClippedPixels(colour)), 19000);
+}
+
+}
