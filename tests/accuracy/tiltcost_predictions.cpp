@@ -176,7 +176,7 @@ Predicted RunTiltcost(const Places& places, const Scene& scene, const std::vecto
 
 	Predicted predicted;
 	const std::string text = Contents(log);
-	predicted.share = Said(text, "Pilot: ") * 16 * 16 / (double(places.effort.width) * places.effort.height);
+	predicted.share = std::min(1.0, Said(text, "Pilot: ") * 16 * 16 / (double(places.effort.width) * places.effort.height)); // blocks at the rim are cut
 	if (predicted.share < 1)   // of a whole picture nothing is left to chance
 	{
 		predicted.error_sigma = Said(text, "errors within ") / 100;

@@ -110,14 +110,14 @@ std::string Summary(const RaceReport& report, Opponent rival, const char* title)
 		text += fmt::format("<th colspan=\"{}\">at {:g}</th>", sides.size(), error);
 	text += fmt::format("<th colspan=\"{}\">mean</th></tr>\n<tr><th></th>", sides.size());
 	for (std::size_t i = 0; i < log_sum.size() + sides.size(); ++i)
-		text += fmt::format("<th>{}</th>", Heading(sides[i % sides.size()]));
+		text += fmt::format("<th>{}</th>", rival == Opponent::RAW ? "denoised" : Heading(sides[i % sides.size()]));
 	text += "</tr>\n" + rows + "<tr><th>geometric mean</th>";
 	for (const double sum : log_sum)
 		text += fmt::format("<th>{:.2f}</th>", std::exp(sum / count));
 	for (std::size_t s = 0; s < sides.size(); ++s)
 	{
 		means += fmt::format("<th class=\"big\">{:.2f}</th>", GeometricMean(report, rival, sides[s]));
-		leasts += fmt::format("{}{:.2f} ({})", s > 0 ? ", " : "", least[s], Heading(sides[s]));
+		leasts += fmt::format("{}{:.2f} ({})", s > 0 ? ", " : "", least[s], rival == Opponent::RAW ? "denoised" : Heading(sides[s]));
 	}
 	return text + means + "</tr></table>\n<p>Least: " + leasts + ".</p>\n";
 }
