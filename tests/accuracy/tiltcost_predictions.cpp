@@ -4,7 +4,7 @@
 // samples. Predictions are made a fixed number of times, before anything is rendered. Writes tiltcost.csv and tiltcost.html (a fragment for the
 // report) and fails when a prediction is out of bounds.
 //
-// Without options at the size and with the pilot of COSTS.md: 1920 x 1080 pixels, tiltcost's own defaults. --small is ctest's.
+// Without options at the size and with the blocks of COSTS.md: 120 of 1920 x 1080 pixels. --small is ctest's.
 
 #include "program/process.h"
 #include "support/picture.h"
@@ -38,10 +38,11 @@ struct Effort
 	int truth_samples;                     ///< of each of the truth's two halves
 	/// So many whatever comes of them. The quickest render, and the shortest of the predicted times, count: other work on the machine only ever adds.
 	int predictions, renders;
-	std::string pilot_time;                ///< empty: tiltcost's own
+	std::string pilot_time;
 };
 
-const Effort Full = {1920, 1080, 64, 1, 1, ""};
+/// tiltcost's own 120 blocks of 8,100; by the clock long enough for all of them.
+const Effort Full = {1920, 1080, 64, 1, 1, "60s"};
 /// All of the 80 blocks on an idle machine. Renders of tenths of a second are easily disturbed.
 const Effort Small = {160, 120, 128, 2, 4, "5s"};
 
@@ -165,9 +166,7 @@ double Said(const std::string& text, const std::string& label)
 Predicted RunTiltcost(const Places& places, const Scene& scene, const std::vector<Row>& own = {})
 {
 	const fs::path csv = places.out / "prediction.csv", log = places.out / "tiltcost.log";
-	std::vector<std::string> command = {places.tiltcost, "--povray", places.povray, "--csv", csv.string()};
-	if (!places.effort.pilot_time.empty())
-		command.insert(command.end(), {"--pilot-time", places.effort.pilot_time});
+	std::vector<std::string> command = {places.tiltcost, "--povray", places.povray, "--csv", csv.string(), "--pilot-time", places.effort.pilot_time};
 	for (const Row& row : own)
 		command.insert(command.end(), {"--setting", fmt::format("{},{},{:.9g},{:.9g}", row.min, row.max, row.variance, row.confidence)});
 	for (const std::string& word : SceneWords(places, scene, Row{0, 128, 0.0001, 0.9, 0, 0}, 0))
