@@ -108,7 +108,7 @@ TEST(SolvePaper, StageOneIsExactUntilted)
 
 TEST(SolvePaper, StageTwoFindsTheSignAndASizeNearIt)
 {
-	// (4) is an approximation: 2.5 to 5.5 for a true 5 (povray-patch/lens/MODEL.md).
+	// (4) is an approximation: of one board 0.2 to 4.7 for a true 5, by its pose (povray-patch/lens/MODEL.md). Of several: between a half and the whole, or so.
 	for (const double tilt : { 5.0, -5.0 })
 	{
 		const Task task = TwoStates({}, Tilted(tilt));

@@ -57,8 +57,9 @@ render() {
 }
 
 finish() {
-	[ $failures -eq 0 ] && echo "all well" || echo "$failures checks failed"
-	exit $failures
+	[ $failures -eq 0 ] && echo "all well" && exit 0
+	echo "$failures checks failed"
+	exit 1 # their number could be 256
 }
 
 # The view of most scenes, and the block that the tests of the lens itself put before it.

@@ -98,6 +98,8 @@ bool Series(double ratio, const std::vector<Picture>& pictures)
 	for (std::size_t i = 0; i < steps.size(); ++i)
 	{
 		const double before = steps[i > 0 ? i - 1 : 1], after = steps[i + 1 < steps.size() ? i + 1 : i - 1];
+		if (steps[i] == 0)
+			worst = HUGE_VAL; // frames that are the same show nothing
 		worst = std::max({worst, steps[i] / std::max(before, after), std::min(before, after) / steps[i]});
 		std::printf("%.5f ", steps[i]);
 	}

@@ -15,7 +15,10 @@ while read -r program scene options; do
 	# what earlier ones made. $options: words.
 	name=$(printf '%s\n' "$options" | sed -n 's/.*+O\([^ ]*\).*/\1/p')
 	name=$(basename "${name:-picture}" | sed 's/\.[a-z]*$//')
+	rm -f "$work/$name"*.png
 	if (cd "$root" && "$ours" "$scene" $options -D +W48 +H27 "+L$work" "+O$work/$name.png" +FN8) > log.txt 2>&1 < /dev/null; then
+		# One, or the frames of an animation.
+		ls "$work/$name"*.png > pictures.txt 2> /dev/null || fail "$scene $options: no picture"
 		echo "$program $scene $options"
 		count=$((count + 1))
 	else

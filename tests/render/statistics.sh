@@ -40,8 +40,8 @@ block)
 		'Hinge:  2.6 from the lens' 'in front 48.89%  at infinity 2.22%  behind 48.89%  empty 0.00%'
 	grep 'Samples/Pixel' floor.exr.log
 	# Adaptive: from 32 to 256, the mean between them, and rays = mean x pixels.
-	grep 'Samples/Pixel' floor.exr.log | awk '{ min = $3; mean = $5; max = $7; rays = $10
-		exit !(min == 32 && max > min && max <= 256 && mean > min && mean < max &&
+	grep 'Samples/Pixel' floor.exr.log | awk '{ n++; min = $3; mean = $5; max = $7; rays = $10 }
+		END { exit !(n == 1 && min == 32 && max > min && max <= 256 && mean > min && mean < max &&
 			rays > 10800 * (mean - 0.006) && rays < 10800 * (mean + 0.006)) }' || fail "samples per pixel do not fit together"
 	# The shares add up, to rounding.
 	sed -n 's/%//g; s/.*in front \([0-9.]*\)  at infinity \([0-9.]*\)  behind \([0-9.]*\)  empty \([0-9.]*\).*/\1 \2 \3 \4/p' \

@@ -16,8 +16,9 @@ render() {
 		"+L$include" "+L$folder" < /dev/null > "$work/$id-$2.log" 2>&1
 }
 
-# The header of a PPM carries the date; the pixels are its last 80 x 60 x 6 bytes.
+# The header of a PPM carries the date; the pixels are its last 80 x 60 x 6 bytes. Files that are not there are not alike.
 pixels() {
+	[ "$(tail -c 28800 "$work/$id-$1.ppm" | wc -c)" = 28800 ] || { echo "no picture of $1"; return; }
 	tail -c 28800 "$work/$id-$1.ppm" | cksum
 }
 

@@ -228,11 +228,19 @@ std::vector<CurvePoint> BestOf(const Contest& contest, Opponent opponent, double
 	return opponent == Opponent::OURS ? HullOf(contest, {Opponent::OURS, Opponent::RAW, Opponent::FIXED}, error) : HullOf(contest, {opponent}, error);
 }
 
-Ratio RatioOf(const Contest& contest, Opponent opponent, double error, double (*error_of)(const RacePoint&))
+std::vector<CurvePoint> OursAgainst(const Contest& contest, Opponent opponent, Side side, double (*error_of)(const RacePoint&))
 {
 	// Rivals of our own make are not on our side.
-	const auto ours = opponent == Opponent::FIXED ? HullOf(contest, {Opponent::OURS, Opponent::RAW}, error_of) :
-		opponent == Opponent::RAW ? HullOf(contest, {Opponent::OURS}, error_of) : BestOf(contest, Opponent::OURS, error_of);
+	if (opponent == Opponent::RAW)
+		return HullOf(contest, {Opponent::OURS}, error_of);
+	if (opponent == Opponent::FIXED)
+		return side == Side::RAW ? HullOf(contest, {Opponent::RAW}, error_of) : HullOf(contest, {Opponent::OURS, Opponent::RAW}, error_of);
+	return side == Side::RAW ? HullOf(contest, {Opponent::RAW, Opponent::FIXED}, error_of) : BestOf(contest, Opponent::OURS, error_of);
+}
+
+Ratio RatioOf(const Contest& contest, Opponent opponent, double error, Side side, double (*error_of)(const RacePoint&))
+{
+	const auto ours = OursAgainst(contest, opponent, side, error_of);
 	const auto rival = opponent == Opponent::RAW ? HullOf(contest, {Opponent::RAW, Opponent::FIXED}, error_of) : BestOf(contest, opponent, error_of);
 	const TimeAt theirs = TimeToReach(rival, error, true), own = TimeToReach(ours, error, false);
 	return {error, theirs.time / own.time, !theirs.reached, !own.reached};
@@ -250,14 +258,14 @@ std::vector<CurvePoint> Contest::RelMseHull(Opponent opponent) const
 	return BestOf(*this, opponent, RootOfRelMse);
 }
 
-Ratio RatioAt(const Contest& contest, Opponent opponent, double error)
+Ratio RatioAt(const Contest& contest, Opponent opponent, double error, Side side)
 {
-	return RatioOf(contest, opponent, error, RmsOf);
+	return RatioOf(contest, opponent, error, side, RmsOf);
 }
 
-Ratio RelMseRatioAt(const Contest& contest, Opponent opponent, double rel_mse)
+Ratio RelMseRatioAt(const Contest& contest, Opponent opponent, double rel_mse, Side side)
 {
-	Ratio ratio = RatioOf(contest, opponent, std::sqrt(rel_mse), RootOfRelMse);
+	Ratio ratio = RatioOf(contest, opponent, std::sqrt(rel_mse), side, RootOfRelMse);
 	ratio.error = rel_mse;
 	return ratio;
 }

@@ -33,6 +33,13 @@ struct Contest
 	std::vector<CurvePoint> RelMseHull(Opponent opponent) const;
 };
 
+// Which of our settings run against an opponent: all of them, or those that trace only, as stock and pinholes do.
+enum class Side
+{
+	BEST, // the quickest, with denoise or without
+	RAW // without denoise
+};
+
 // Time of the opponent over ours at an error. Over FIXED it is our adaptive settings alone that are asked.
 struct Ratio
 {
@@ -40,8 +47,8 @@ struct Ratio
 	bool at_least = false; // the opponent did not get there: its time is extrapolated, to its advantage
 	bool at_most = false; // ours did not get there: extrapolated, to its disadvantage
 };
-Ratio RatioAt(const Contest& contest, Opponent opponent, double error);
-Ratio RelMseRatioAt(const Contest& contest, Opponent opponent, double rel_mse);
+Ratio RatioAt(const Contest& contest, Opponent opponent, double error, Side side);
+Ratio RelMseRatioAt(const Contest& contest, Opponent opponent, double rel_mse, Side side);
 
 // `say` receives a line at every step.
 Contest RunContest(const Renderer& renderer, const RaceScene& scene, bool tilted, const RaceSettings& settings,

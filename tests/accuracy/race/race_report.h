@@ -17,7 +17,7 @@ struct RaceReport
 	bool reused_stock = false;
 };
 
-// points.csv, ratios.csv and truths.csv.
+// points.csv, ratios.csv (each ratio without denoise and at the best) and truths.csv.
 void WriteTables(const RaceReport& report, const std::filesystem::path& out);
 
 // report.html, self-contained; `work` receives what is made on the way. Fragments that lie in `out` are taken in:
@@ -28,7 +28,10 @@ void WritePage(const RaceReport& report, const std::filesystem::path& out, const
 std::string PlotOf(const Contest& contest, bool rel_mse, const std::filesystem::path& work);
 
 // Geometric mean of ratios against a rival over contests and errors; 0 without any.
-double GeometricMean(const RaceReport& report, Opponent rival);
+double GeometricMean(const RaceReport& report, Opponent rival, Side side);
 
 // Sentences on where ours gains nothing, or least.
-std::string WhereWeLose(const RaceReport& report);
+std::string WhereWeLose(const RaceReport& report, Side side);
+
+// ">" for at least, "<" for at most, "~" for both.
+const char* Sign(const Ratio& ratio);

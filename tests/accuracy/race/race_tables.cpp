@@ -11,9 +11,15 @@
 
 namespace fs = std::filesystem;
 
-static std::string Sign(const Ratio& ratio)
+const char* Sign(const Ratio& ratio)
 {
 	return ratio.at_least && !ratio.at_most ? ">" : ratio.at_most && !ratio.at_least ? "<" : ratio.at_least ? "~" : "";
+}
+
+// Against our own without denoise there is no ratio without denoise.
+static std::string Both(const Ratio& raw, const Ratio& best, Opponent opponent)
+{
+	return (opponent == Opponent::RAW ? "," : fmt::format("{:.4f},{}", raw.value, Sign(raw))) + fmt::format(",{:.4f},{}", best.value, Sign(best));
 }
 
 static std::ofstream Open(const fs::path& path, const char* head)
@@ -29,7 +35,7 @@ void WriteTables(const RaceReport& report, const fs::path& out)
 {
 	std::ofstream points = Open(out / "points.csv",
 		"contest,opponent,setting,cpu_s,spread,rms,rms_truth,rms_shifted,rms_limit,rel_mse,max_rss_mib");
-	std::ofstream ratios = Open(out / "ratios.csv", "contest,opponent,measure,error,ratio,sign");
+	std::ofstream ratios = Open(out / "ratios.csv", "contest,opponent,measure,error,raw_ratio,raw_sign,best_ratio,best_sign");
 	std::ofstream truths = Open(out / "truths.csv",
 		"contest,samples,own_error,pinholes,pinhole_distance,pinhole_error,stock_limit_distance,stock_limit_error,stock_dx,stock_dy");
 	for (const Contest& contest : report.contests)
@@ -43,13 +49,13 @@ void WriteTables(const RaceReport& report, const fs::path& out)
 		{
 			for (double error : report.settings.errors)
 			{
-				const Ratio ratio = RatioAt(contest, opponent, error);
-				ratios << fmt::format("{},{},rms,{:g},{:.4f},{}\n", contest.Name(), Name(opponent), error, ratio.value, Sign(ratio));
+				ratios << fmt::format("{},{},rms,{:g},{}\n", contest.Name(), Name(opponent), error,
+					Both(RatioAt(contest, opponent, error, Side::RAW), RatioAt(contest, opponent, error, Side::BEST), opponent));
 			}
 			for (double error : report.settings.rel_mse)
 			{
-				const Ratio ratio = RelMseRatioAt(contest, opponent, error);
-				ratios << fmt::format("{},{},relmse,{:g},{:.4f},{}\n", contest.Name(), Name(opponent), error, ratio.value, Sign(ratio));
+				ratios << fmt::format("{},{},relmse,{:g},{}\n", contest.Name(), Name(opponent), error,
+					Both(RelMseRatioAt(contest, opponent, error, Side::RAW), RelMseRatioAt(contest, opponent, error, Side::BEST), opponent));
 			}
 		}
 		truths << fmt::format("{},{},{:.3g},{},{:.3g},{:.3g},{:.3g},{:.3g},{:.4f},{:.4f}\n", contest.Name(), contest.truth_samples,
@@ -58,7 +64,7 @@ void WriteTables(const RaceReport& report, const fs::path& out)
 	}
 }
 
-double GeometricMean(const RaceReport& report, Opponent rival)
+double GeometricMean(const RaceReport& report, Opponent rival, Side side)
 {
 	double sum = 0;
 	int count = 0;
@@ -68,14 +74,14 @@ double GeometricMean(const RaceReport& report, Opponent rival)
 			continue;
 		for (double error : report.settings.errors)
 		{
-			sum += std::log(RatioAt(contest, rival, error).value);
+			sum += std::log(RatioAt(contest, rival, error, side).value);
 			++count;
 		}
 	}
 	return count > 0 ? std::exp(sum / count) : 0;
 }
 
-std::string WhereWeLose(const RaceReport& report)
+std::string WhereWeLose(const RaceReport& report, Side side)
 {
 	struct Cell
 	{
@@ -90,7 +96,7 @@ std::string WhereWeLose(const RaceReport& report)
 			if (contest.points.find(rival) != contest.points.end())
 				for (double error : report.settings.errors)
 				{
-					const Ratio ratio = RatioAt(contest, rival, error);
+					const Ratio ratio = RatioAt(contest, rival, error, side);
 					cells.push_back({fmt::format("{} at {:g} ({}{:.2f})", contest.Title(), error, Sign(ratio), ratio.value), ratio.value});
 				}
 		if (cells.empty())

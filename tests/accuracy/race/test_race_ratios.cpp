@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// Which of our settings run on which side of a race, on times and errors that are made up: all fall like 1/sqrt(time).
+
+#include "race_report.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace
+{
+
+// An opponent that needs `seconds` for an error of 0.01.
+std::vector<RacePoint> Points(double seconds)
+{
+	std::vector<RacePoint> points;
+	for (const double error : {0.02, 0.01, 0.005, 0.002})
+	{
+		RacePoint point;
+		point.times = {seconds * std::pow(0.01 / error, 2)};
+		point.rms_truth = point.rms_shifted = point.rms_limit = error;
+		point.rel_mse = error * error;
+		points.push_back(point);
+	}
+	return points;
+}
+
+Contest Made(double denoised, double raw, double fixed)
+{
+	Contest contest;
+	contest.points[Opponent::STOCK] = Points(12);
+	contest.points[Opponent::OURS] = Points(denoised);
+	contest.points[Opponent::RAW] = Points(raw);
+	contest.points[Opponent::FIXED] = Points(fixed);
+	return contest;
+}
+
+double At(const Contest& contest, Opponent opponent, Side side)
+{
+	return RatioAt(contest, opponent, 0.005, side).value;
+}
+
+}
+
+TEST(RaceRatios, RawIsNotDenoised)
+{
+	const Contest contest = Made(2, 4, 6);
+	EXPECT_NEAR(At(contest, Opponent::STOCK, Side::BEST), 6, 1e-9);
+	EXPECT_NEAR(At(contest, Opponent::STOCK, Side::RAW), 3, 1e-9);
+	EXPECT_NEAR(RelMseRatioAt(contest, Opponent::STOCK, 25e-6, Side::RAW).value, 3, 1e-9);
+	EXPECT_NEAR(At(contest, Opponent::FIXED, Side::BEST), 3, 1e-9);
+	EXPECT_NEAR(At(contest, Opponent::FIXED, Side::RAW), 1.5, 1e-9);
+	EXPECT_NEAR(At(contest, Opponent::RAW, Side::BEST), 2, 1e-9);
+}
+
+TEST(RaceRatios, BestIsTheQuickestOfAll)
+{
+	// Denoising that is slower than adaptive samples, and these than a fixed number.
+	const Contest contest = Made(8, 4, 3);
+	EXPECT_NEAR(At(contest, Opponent::STOCK, Side::BEST), 4, 1e-9);
+	EXPECT_NEAR(At(contest, Opponent::STOCK, Side::RAW), 4, 1e-9);
+	EXPECT_NEAR(At(contest, Opponent::FIXED, Side::RAW), 0.75, 1e-9);
+	EXPECT_NEAR(At(contest, Opponent::RAW, Side::BEST), 0.375, 1e-9);
+}
+
+TEST(RaceRatios, MeansAreOfASide)
+{
+	RaceReport report;
+	report.settings.errors = {0.01, 0.005};
+	report.contests = {Made(2, 4, 6), Made(3, 12, 24)};
+	EXPECT_NEAR(GeometricMean(report, Opponent::STOCK, Side::BEST), std::sqrt(6.0 * 4.0), 1e-9);
+	EXPECT_NEAR(GeometricMean(report, Opponent::STOCK, Side::RAW), std::sqrt(3.0 * 1.0), 1e-9);
+	EXPECT_NE(WhereWeLose(report, Side::RAW), WhereWeLose(report, Side::BEST));
+}
