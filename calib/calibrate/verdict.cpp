@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
 #include "calibrate/verdict.h"
+#include "calibrate/verdict_remarks.h"
 
 #include "solve/blur_fit.h"
 #include <tiltcal/calibrate.h>
@@ -26,6 +27,11 @@ public:
 
 	Verdict Everything()
 	{
+		if (!c.refined)
+			Say(Grade::POOR, "the joint refinement did not converge: geometry and blur are as solved one after the other, and each one's sigma does not know of the other's");
+		AddRemarks(JudgePhotographs(c));
+		AddRemarks(JudgeBoard(c));
+		AddRemarks(JudgeUntilted(c));
 		ImageDistance();
 		for (size_t s = 0; s < c.solution.states.size(); ++s)
 		{
@@ -48,6 +54,12 @@ private:
 		verdict.grade = std::max(verdict.grade, grade);
 	}
 
+	void AddRemarks(const std::vector<Remark>& remarks)
+	{
+		for (const Remark& r : remarks)
+			Say(r.grade, r.text);
+	}
+
 	const std::string& StateName(size_t s) const { return c.task.states[s].name; }
 
 	void ImageDistance()
@@ -58,7 +70,7 @@ private:
 				"30 to 45 degrees in several directions, and filling the picture", 100 * relative));
 		for (size_t s = 0; s < c.geometry.states.size(); ++s)
 			if (c.geometry.states[s].principal_point_fixed)
-				Say(Grade::FAIR, fmt::format("state {}: the principal point was taken to be the picture's centre: photograph the board in at least three poses", StateName(s)));
+				Say(Grade::FAIR, fmt::format("state {}: the principal point is not told by the photographs and was taken to be the picture's centre, give or take 2 % of its width: photograph the board in at least three poses", StateName(s)));
 	}
 
 	void Tilt(size_t s)
@@ -137,7 +149,16 @@ private:
 	{
 		for (const Correlation& r : c.solution.correlations)
 			if (std::abs(r.value) > 0.97)
-				Say(Grade::FAIR, fmt::format("{} and {} can hardly be told apart (correlation {:.3f}): their sum is known better than each", r.first, r.second, r.value));
+				Say(Grade::FAIR, fmt::format("{} and {} can hardly be told apart (correlation {:.3f}): their {} is known better than each", r.first, r.second, r.value, KnownBetter(r)));
+	}
+
+	/// What of the two does not change along the direction in which they are hardly known. Lengths by their ratio, tilts, which may be 0,
+	/// by their difference; a tilt and a length have only a combination.
+	static const char* KnownBetter(const Correlation& r)
+	{
+		const auto is_tilt = [](const std::string& name) { return name.find('.') != std::string::npos; };
+		const int tilts = is_tilt(r.first) + is_tilt(r.second);
+		return tilts == 1 ? "combination" : r.value > 0 ? tilts ? "difference" : "ratio" : tilts ? "sum" : "product";
 	}
 
 	void Limit()

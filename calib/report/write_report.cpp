@@ -205,6 +205,7 @@ void WriteEverything(const Calibration& c, const RunNotes& notes, const ReadGrey
 		PlotBlur(c, s, folder, set);
 		set.Text(Join(folder, "camera-" + c.task.states[s].name + ".inc"), CameraInc(c, s));
 	}
+	set.Text(Join(folder, "photographs.csv"), PhotographsCsv(c));
 	set.Text(Join(folder, "report.txt"), SummaryTable(c));
 	spdlog::info("writing report.html");
 	set.Text(Join(folder, "report.html"), ReportHtml(c, notes, pictures));

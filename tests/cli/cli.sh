@@ -91,6 +91,27 @@ bad_transfer) calibrate 2 transfer "$target/untilted-1.jpg" --transfer rec709 ;;
 bad_pitch)
 	refuses 2 pitch calibrate --board 12x9 --square 25 --pitch 0 --untilted "$target/untilted-1.jpg" --out result
 	refuses 2 square calibrate --board 12x9 --square -1 --pitch 0.02 --untilted "$target/untilted-1.jpg" --out result ;;
+bad_square)
+	for square in 25: 25:x 25:-1 0:1 :0.1; do
+		refuses 2 "VALUE:SIGMA" calibrate --board 12x9 --square "$square" --pitch 0.02 --untilted "$target/untilted-1.jpg" --out result
+	done ;;
+same_photo)
+	# A copy under another name, in the same state and in another.
+	cp "$target/untilted-1.jpg" copy.jpg
+	refuses 1 "copy.jpg: has the pixels of .*untilted-1.jpg" calibrate --board 12x9 --square 25 --pitch 0.02 --untilted "$target/untilted-1.jpg" copy.jpg --out result
+	refuses 1 "copy.jpg: has the pixels of .*untilted-1.jpg" calibrate --board 12x9 --square 25 --pitch 0.02 --untilted "$target/untilted-1.jpg" --tilted plus5=copy.jpg --out result ;;
+swapped_board) refuses 1 "--board 12x9 meant" calibrate --board 9x12 --square 25 --pitch 0.02 --untilted "$target/untilted-1.jpg" --out result ;;
+scene_as_flat_field)
+	refuses 1 "shows a pattern" calibrate --board 12x9 --square 25 --pitch 0.02 --untilted "$target/untilted-1.jpg" --flat-field "untilted=$target/untilted-2.jpg" --out result ;;
+misfiled)
+	# A tilted photograph among the untilted, a square known to 0.02 mm, the untilted lens not taken for straight: all in the files.
+	expect 0 calibrate --board 12x9 --square 25:0.02 --pitch 0.02 --model plane --poses own --edges-per-photo 40 --untilted-free --out result \
+		--untilted "$target"/untilted-[1-4].jpg "$target/plus5-6.jpg" --tilted plus5="$target/plus5-[1-5].jpg"
+	prints "verdict: poor" ; prints "plus5-6.jpg: its blur fits.*it fits the lens of state plus5"
+	grep -q "^untilted,.*plus5-6.jpg,.*,1,plus5,$" result/photographs.csv || fail "plus5-6.jpg is not in photographs.csv"
+	grep -q '"fits_state": "plus5"' result/calibration.json || fail "no fits_state in calibration.json"
+	grep -q '"square_sigma_mm": 0.02' result/calibration.json || fail "no square_sigma_mm in calibration.json"
+	grep -q "stands out" result/report.html || fail "nothing stands out in report.html" ;;
 bad_name) calibrate 2 NAME "$target/untilted-1.jpg" --tilted "$target/plus5-1.jpg"; calibrate 2 NAME "$target/untilted-1.jpg" --tilted "5deg=$target/plus5-1.jpg" ;;
 same_name) calibrate 2 "already taken" "$target/untilted-1.jpg" --tilted "untilted=$target/plus5-1.jpg" ;;
 unbuilt_model) calibrate 2 "plane" "$target/untilted-1.jpg" --model magic ;;
