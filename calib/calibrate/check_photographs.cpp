@@ -33,14 +33,22 @@ double RmsOfBlur(const Calibration& c, size_t lens, size_t s, size_t p)
 	return edges.empty() ? 0 : std::sqrt(sum / double(edges.size()));
 }
 
-/// Median over the others; 0 where there are none.
+/// Median over the others of its state, so that none stands out where all of them are off; of all states where fewer than two
+/// others do not say which one is right. 0 where there are none.
 template<typename Value>
 double TypicalOfOthers(const std::vector<PhotographCheck>& all, const PhotographCheck& own, const Value& value)
 {
-	std::vector<double> others;
+	std::vector<double> others, of_state;
 	for (const PhotographCheck& other : all)
-		if (&other != &own)
-			others.push_back(value(other));
+	{
+		if (&other == &own)
+			continue;
+		others.push_back(value(other));
+		if (other.state == own.state)
+			of_state.push_back(value(other));
+	}
+	if (of_state.size() >= 2)
+		others = of_state;
 	return others.empty() ? 0 : Median(std::move(others));
 }
 

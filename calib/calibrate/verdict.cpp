@@ -32,6 +32,8 @@ public:
 		AddRemarks(JudgePhotographs(c));
 		AddRemarks(JudgeBoard(c));
 		AddRemarks(JudgeUntilted(c));
+		// What these name is not the lens's aberrations.
+		const bool explained = verdict.grade != Grade::GOOD;
 		ImageDistance();
 		for (size_t s = 0; s < c.solution.states.size(); ++s)
 		{
@@ -43,7 +45,8 @@ public:
 		}
 		Priors();
 		Correlations();
-		Limit();
+		if (!explained)
+			Limit();
 		return verdict;
 	}
 
@@ -107,7 +110,7 @@ private:
 		for (const LeftOut& l : c.solution.left_out)
 			if (l.state == s && (!worst || l.tilt_change > worst->tilt_change))
 				worst = &l;
-		if (s > 0 && !worst)
+		if (s > 0 && !worst && c.task.states[s].photos.size() == 1)
 			Say(Grade::FAIR, fmt::format("state {}: one photograph alone cannot be checked against others: photograph at least three poses", StateName(s)));
 		if (s == 0 || !worst)
 			return;

@@ -177,12 +177,17 @@ TEST(Detect, WrongSizesAreRefused)
 TEST(Detect, PhotographsOfTwoSizesAreRefused)
 {
 	const Painted painted = Paint(12, 9, 1.5);
-	const std::string a = testing::TempDir() + "tiltcal-size-a.png", b = testing::TempDir() + "tiltcal-size-b.png";
+	const std::string a = testing::TempDir() + "tiltcal-size-a.png", b = testing::TempDir() + "tiltcal-size-b.png", c = testing::TempDir() + "tiltcal-size-c.png";
 	WritePng(a, ToDisplay(painted.image));
+	WritePng(c, ToDisplay(0.99 * painted.image));
 	WritePng(b, ToDisplay(painted.image(cv::Rect(0, 0, painted.image.cols - 2, painted.image.rows))));
 	EXPECT_THROW(MeasureAll({ { "untilted", { a, b } } }, ParseBoard("12x9", 25), 0.02), Error);
-	EXPECT_EQ(MeasureAll({ { "untilted", { a, a } } }, ParseBoard("12x9", 25), 0.02).states[0].photos.size(), 2u);
+	EXPECT_EQ(MeasureAll({ { "untilted", { a, c } } }, ParseBoard("12x9", 25), 0.02).states[0].photos.size(), 2u);
+	// Twice the same, under any name.
+	std::filesystem::copy_file(a, b, std::filesystem::copy_options::overwrite_existing);
+	EXPECT_THROW(MeasureAll({ { "untilted", { a } }, { "tilted", { b } } }, ParseBoard("12x9", 25), 0.02), Error);
 	std::filesystem::remove(a);
+	std::filesystem::remove(c);
 	std::filesystem::remove(b);
 }
 
