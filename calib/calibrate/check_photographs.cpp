@@ -15,9 +15,10 @@ namespace tiltcal
 namespace
 {
 
-/// Photographs differ in how far the lens's aberrations show in them: by 1.3 about their median on the lenses of scenes/boxes. One that
-/// is not of this state, or not of this board, misses by its own blur or by squares.
-const double STANDS_OUT = 3;
+/// Photographs differ in how far the lens's aberrations show in them: the worst of scenes/boxes, whose blur is large, misses by 3.3 times
+/// the others' median. One that is not of this state, or not of this board, misses by its own blur or by parts of a square: 9 times there,
+/// 20 times and more without aberrations.
+const double STANDS_OUT = 5;
 /// px; below it nothing in a render is moved or blurred visibly.
 const double MATTERS = 0.1;
 
@@ -84,11 +85,11 @@ void FindDoubles(const Task& task, std::vector<PhotographCheck>& all)
 			}
 }
 
-/// The state whose plane of focus explains the blur at least three times as well as the own one.
+/// The state whose plane of focus explains the blur at least twice as well as the own one.
 std::optional<size_t> BetterState(const Calibration& c, const PhotographCheck& check)
 {
 	std::optional<size_t> best;
-	double least = check.rms_blur / STANDS_OUT;
+	double least = check.rms_blur / 2;
 	for (size_t s = 0; s < c.solution.states.size(); ++s)
 		if (const double rms = RmsOfBlur(c, s, check.state, check.photo); s != check.state && rms < least)
 		{

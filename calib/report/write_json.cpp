@@ -230,11 +230,13 @@ Json BoardCheckJson(const BoardCheck& b)
 	return json;
 }
 
+/// Each pair once, and every number with itself.
 Json CovarianceJson(const NamedCovariance& c)
 {
-	Json json{ { "names", c.names }, { "matrix", Json::array() } };
+	Json json;
 	for (size_t i = 0; i < c.names.size(); ++i)
-		json["matrix"].push_back(std::vector<double>(c.matrix.begin() + long(i * c.names.size()), c.matrix.begin() + long((i + 1) * c.names.size())));
+		for (size_t j = i; j < c.names.size(); ++j)
+			json[c.names[i]][c.names[j]] = c.matrix[i * c.names.size() + j];
 	return json;
 }
 
