@@ -66,7 +66,7 @@ Rows StateRows(const Calibration& c)
 	{
 		const StateCamera camera = FittedCamera(c, s);
 		const StateCameraSigma& sigma = camera.sigma;
-		const bool tilted = c.task.states[s].tilted || c.task.untilted_free;
+		const bool tilted = c.task.states[s].tilted || (c.task.untilted_free && c.solution.model != Model::PAPER);
 		rows.push_back({ Escape(camera.state), tilted ? WithSigma({ camera.lens_tilt_deg, sigma.lens_tilt_deg }, "°") : "none",
 			tilted ? WithSigma({ camera.tilt_direction_deg, sigma.tilt_direction_deg }, "°") : "–",
 			tilted ? WithSigma({ camera.focal_plane_tilt_deg, sigma.focal_plane_tilt_deg }, "°") : "parallel",

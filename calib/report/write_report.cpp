@@ -36,7 +36,7 @@ std::string StateRows(const Calibration& c, const Solution& solution, const Geom
 	for (size_t s = 0; s < solution.states.size(); ++s)
 	{
 		const StateLens& l = solution.states[s];
-		const bool tilted = c.task.states[s].tilted;
+		const bool tilted = c.task.states[s].tilted || (c.task.untilted_free && solution.model != Model::PAPER);
 		double squares = 0;
 		for (const double r : g.states[s].photo_rms)
 			squares += r * r;

@@ -155,7 +155,7 @@ void Solve(ceres::Problem& problem)
 	how.threads = AllThreads();
 	std::string why;
 	if (!SolveLeastSquares(how, problem, &why))
-		throw Refused("the reprojection fit did not converge: " + why);
+		throw Refused(fmt::format("the reprojection fit did not converge ({}), as where w is hardly determined: photograph the board inclined by 20 to 45 degrees, in three or more directions", why));
 }
 
 /// Standard deviations, rescaled by the residuals; false when the problem is singular.
