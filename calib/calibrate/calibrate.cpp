@@ -7,6 +7,9 @@
 #include <tiltcal/error.h>
 #include "calibrate/quiet.h"
 #include "calibrate/check_light.h"
+#include "calibrate/check_board.h"
+#include "calibrate/check_photographs.h"
+#include "calibrate/check_untilted.h"
 #include "calibrate/exif_check.h"
 #include "calibrate/measure_all.h"
 #include "calibrate/verdict.h"
@@ -26,6 +29,9 @@
 #include "lens/optics.h"
 
 #include <algorithm>
+#include <functional>
+#include <map>
+#include <string_view>
 
 namespace tiltcal
 {
@@ -52,6 +58,25 @@ void LogPhoto(const Photo& photo, size_t number, size_t total, const Log& log)
 	if (photo.saturated_share > 0.05)
 		log.Warn(fmt::format("{}: {:.0f} % of the edges have a clipped bright side, which narrows their blur: expose less", photo.file, 100 * photo.saturated_share));
 }
+
+/// Pictures seen before, by their pixels: a copy under another name or in another lossless format is none the newer.
+class SeenPictures
+{
+public:
+	/// Throws Refused.
+	void Add(const std::string& file, const cv::Mat& grey)
+	{
+		size_t hash = 0;
+		for (int y = 0; y < grey.rows; ++y)
+			hash = 31 * hash + std::hash<std::string_view>()({ grey.ptr<char>(y), size_t(grey.cols) * grey.elemSize() });
+		const auto [at, is_new] = files.emplace(hash, file);
+		if (!is_new)
+			throw Refused(fmt::format("{}: has the pixels of {}: the same photograph twice makes sigmas too small, and in two states one of them is wrong; leave one out", file, at->second));
+	}
+
+private:
+	std::map<size_t, std::string> files;
+};
 
 /// All pictures come from one sensor.
 void CheckSize(Task& task, const Photo& photo)
@@ -214,9 +239,28 @@ void Refine(const Task& task, const CalibrateOptions& o, Calibration& c)
 		return;
 	o.log.Info(fmt::format("refining geometry and lens together ({})", o.refinement == Refinement::EDGES ? "edges" : "photometric"));
 	if (!RefineJointly(task, o.refinement, c.geometry, c.solution))
+	{
+		c.refined = false;
 		o.log.Warn("the joint refinement did not converge; geometry and blur are as solved one after the other");
+	}
 	else if (c.geometry.distortion_terms == 0)
 		c.render = c.solution;
+}
+
+/// What the size of the board adds to the sigmas of places; those of the lens hold it already.
+void AddBoardSize(Calibration& c)
+{
+	const double relative = c.task.board.square_sigma_mm / c.task.board.square_mm;
+	for (Geometry* g : { &c.geometry, &c.pinhole })
+		for (StateGeometry& state : g->states)
+		{
+			for (size_t p = 0; p < state.poses.size(); ++p)
+				for (size_t k = 3; k < 6; ++k)
+					state.pose_sigmas[p][k] = std::hypot(state.pose_sigmas[p][k], relative * state.poses[p][k]);
+			const std::pair<double*, double> centre[] = { { &state.lens_centre_sigma.x, state.lens_centre.x }, { &state.lens_centre_sigma.y, state.lens_centre.y }, { &state.lens_centre_sigma.z, state.lens_centre.z } };
+			for (const auto& [sigma, value] : centre)
+				*sigma = std::hypot(*sigma, relative * value);
+		}
 }
 
 }
@@ -248,6 +292,7 @@ Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, doubl
 	Task task;
 	task.board = board;
 	task.pitch_mm = pitch_mm;
+	SeenPictures seen;
 	size_t total = 0, number = 0;
 	for (const StateFiles& s : states)
 		total += s.files.size();
@@ -262,6 +307,7 @@ Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, doubl
 			Photo photo = MeasurePhoto(file, board, o.transfer, { o.any_orientation }, { o.edges_per_photo, o.edge_phase }, &grey);
 			LogPhoto(photo, ++number, total, o.log);
 			CheckSize(task, photo);
+			seen.Add(file, grey);
 			state.photos.push_back(std::move(photo));
 			if (see)
 				see(grey);
@@ -298,13 +344,17 @@ Calibration Calibrate(const Task& measured, const CalibrateOptions& o)
 	{
 		SolveExact(measured, model, o, c);
 		Refine(c.task, o, c);
+		AddBoardSize(c);
+		c.photographs = CheckPhotographs(c);
+		c.board_check = CheckBoard(c.task, c.geometry);
+		c.untilted_check = CheckUntilted(c);
 	}
 	else
-		c.geometry = c.pinhole = SolveGeometry(task, {});
+		c.geometry = c.pinhole = SolveGeometry(task, { 0, {}, PosesAreShared(task, {}, o) });
 	WarnOfOddPhotos(task, c.geometry, log);
 	for (size_t k = 0; k < task.states.size(); ++k)
 		if (c.geometry.states[k].principal_point_fixed)
-			log.Warn(fmt::format("state {}: the photographs do not determine the principal point; it is kept at the picture's centre. "
+			log.Warn(fmt::format("state {}: the photographs do not determine the principal point; it is held to 2 % of the width about the picture's centre. "
 				"Photograph the board in more, differently inclined poses", task.states[k].name));
 	for (size_t k = 0; k < c.solution.states.size(); ++k)
 		if (c.solution.states[k].chosen_by_power)

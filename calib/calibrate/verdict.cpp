@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
 #include "calibrate/verdict.h"
+#include "calibrate/verdict_remarks.h"
 
 #include "calibrate/check_light.h"
 
@@ -28,6 +29,13 @@ public:
 
 	Verdict Everything()
 	{
+		if (!c.refined)
+			Say(Grade::POOR, "the joint refinement did not converge: geometry and blur are as solved one after the other, and each one's sigma does not know of the other's");
+		AddRemarks(JudgePhotographs(c));
+		AddRemarks(JudgeBoard(c));
+		AddRemarks(JudgeUntilted(c));
+		// What these name is not the lens's aberrations.
+		const bool explained = verdict.grade != Grade::GOOD;
 		ImageDistance();
 		for (size_t s = 0; s < c.solution.states.size(); ++s)
 		{
@@ -41,7 +49,8 @@ public:
 			Say(remark.grade, remark.text);
 		Priors();
 		Correlations();
-		Limit();
+		if (!explained)
+			Limit();
 		return verdict;
 	}
 
@@ -50,6 +59,12 @@ private:
 	{
 		verdict.remarks.push_back({ grade, text });
 		verdict.grade = std::max(verdict.grade, grade);
+	}
+
+	void AddRemarks(const std::vector<Remark>& remarks)
+	{
+		for (const Remark& r : remarks)
+			Say(r.grade, r.text);
 	}
 
 	const std::string& StateName(size_t s) const { return c.task.states[s].name; }
@@ -62,7 +77,7 @@ private:
 				"30 to 45 degrees in several directions, and filling the picture", 100 * relative));
 		for (size_t s = 0; s < c.geometry.states.size(); ++s)
 			if (c.geometry.states[s].principal_point_fixed)
-				Say(Grade::FAIR, fmt::format("state {}: the principal point was taken to be the picture's centre: photograph the board in at least three poses", StateName(s)));
+				Say(Grade::FAIR, fmt::format("state {}: the principal point is not told by the photographs and was taken to be the picture's centre, give or take 2 % of its width: photograph the board in at least three poses", StateName(s)));
 	}
 
 	void Tilt(size_t s)
@@ -99,7 +114,7 @@ private:
 		for (const LeftOut& l : c.solution.left_out)
 			if (l.state == s && (!worst || l.tilt_change > worst->tilt_change))
 				worst = &l;
-		if (s > 0 && !worst)
+		if (s > 0 && !worst && c.task.states[s].photos.size() == 1)
 			Say(Grade::FAIR, fmt::format("state {}: one photograph alone cannot be checked against others: photograph at least three poses", StateName(s)));
 		if (s == 0 || !worst)
 			return;
@@ -141,7 +156,16 @@ private:
 	{
 		for (const Correlation& r : c.solution.correlations)
 			if (std::abs(r.value) > 0.97)
-				Say(Grade::FAIR, fmt::format("{} and {} can hardly be told apart (correlation {:.3f}): their sum is known better than each", r.first, r.second, r.value));
+				Say(Grade::FAIR, fmt::format("{} and {} can hardly be told apart (correlation {:.3f}): their {} is known better than each", r.first, r.second, r.value, KnownBetter(r)));
+	}
+
+	/// What of the two does not change along the direction in which they are hardly known. Lengths by their ratio, tilts, which may be 0,
+	/// by their difference; a tilt and a length have only a combination.
+	static const char* KnownBetter(const Correlation& r)
+	{
+		const auto is_tilt = [](const std::string& name) { return name.find('.') != std::string::npos; };
+		const int tilts = is_tilt(r.first) + is_tilt(r.second);
+		return tilts == 1 ? "combination" : r.value > 0 ? tilts ? "difference" : "ratio" : tilts ? "sum" : "product";
 	}
 
 	void Limit()

@@ -14,6 +14,7 @@
 #include <tiltcal/error.h>
 #include "calibrate/exif_check.h"
 #include "base/files.h"
+#include "base/numbers.h"
 #include "base/plain_text.h"
 #include "effects/effects.h"
 #include "effects/fixed_blades.h"
@@ -38,16 +39,26 @@ namespace
 
 struct Options
 {
-	std::string board, target = "checkerboard", transfer = "srgb", model = "auto", poses = "auto", refine = "edges", effects = "auto", out;
-	double square = 0, circle_diameter = 0;
+	std::string board, target = "checkerboard", transfer = "srgb", model = "auto", poses = "auto", refine = "edges", effects = "auto", square, out;
+	double circle_diameter = 0;
 	std::optional<double> pitch;
 	std::vector<std::string> untilted, tilted, fix, prior, flat_field;
-	bool any_orientation = false;
+	bool any_orientation = false, untilted_free = false;
 	int edges_per_photo = 0;
 };
 
 /// Six edges of each direction reach all quarters of the board (test_spread_order.cpp).
 const int FEWEST_EDGES = 12;
+
+/// --square VALUE or VALUE:SIGMA, mm.
+Estimate ParseSquare(const std::string& text)
+{
+	const size_t colon = text.find(':');
+	const std::optional<double> value = FiniteNumber(text.substr(0, colon)), sigma = colon == std::string::npos ? std::optional<double>(0) : FiniteNumber(text.substr(colon + 1));
+	if (!value || !(*value > 0) || !sigma || *sigma < 0)
+		throw UsageError(fmt::format("--square {}: give VALUE or VALUE:SIGMA in mm, above 0, such as 25 or 25:0.02", text));
+	return { *value, *sigma };
+}
 
 /// The state's name and pattern of --tilted NAME='GLOB'.
 std::pair<std::string, std::string> NameAndPattern(const std::string& option)
@@ -242,7 +253,9 @@ void SpellAsOptions(Calibration& c)
 void Run(const Options& o, const std::string& command_line)
 {
 	const auto start = std::chrono::steady_clock::now();
-	const Board board = MakeBoard(ParseTargetKind(o.target, "--target"), o.board, o.square, o.circle_diameter, "--target");
+	const Estimate square = ParseSquare(o.square);
+	Board board = MakeBoard(ParseTargetKind(o.target, "--target"), o.board, square.value, o.circle_diameter, "--target");
+	board.square_sigma_mm = square.sigma;
 	MeasureOptions measure;
 	measure.transfer = ParseTransfer(o.transfer);
 	measure.any_orientation = o.any_orientation;
@@ -267,6 +280,7 @@ void Run(const Options& o, const std::string& command_line)
 	Task task = MeasureAll(states, board, pitch, measure, [&](const cv::Mat& grey) { pictures.Add(grey); });
 	task.priors = known.priors;
 	task.blades = known.blades;
+	task.untilted_free = o.untilted_free;
 	for (const FieldFile& field : fields)
 		AddFlatField(task, field.state, field.file, measure);
 	for (const Prior& prior : PriorsFromExif(task, known.priors))
@@ -293,11 +307,13 @@ void AddCalibrate(CLI::App& app, const std::string& command_line)
 	CLI::App* c = app.add_subcommand("calibrate", "Photographs of a checkerboard or a grid of circles in, camera blocks for tilt_lens out.");
 	c->add_option("--board", o->board, "Squares of the board, columns x rows, such as 12x9 (squares, not inner corners); of the other targets circles")->required();
 	c->add_option("--target", o->target, "checkerboard, circles or asymmetric-circles, as tiltcal target --kind prints them")->capture_default_str();
-	c->add_option("--square", o->square, "Side of a square, or spacing of circles, mm; asymmetric: distance of rows, half that of the circles in a row")->required();
+	c->add_option("--square", o->square, "Side of a square, or spacing of circles, mm; asymmetric: distance of rows, half that of the circles in a row. "
+		"VALUE:SIGMA where it is known to SIGMA: then the sigmas of all that grows with the board hold that too")->required();
 	c->add_option("--circle-diameter", o->circle_diameter, "Diameter of a circle, mm; 0: half the distance of neighbouring centres. A little more or less does no "
 		"harm: it is measured in every photograph")->capture_default_str();
 	c->add_option("--pitch", o->pitch, "Distance of pixel centres on the sensor, mm; needed unless EXIF says it (FocalPlaneXResolution)");
 	c->add_option("--untilted", o->untilted, "Photographs with the lens untilted: names or quoted patterns")->required();
+	c->add_flag("--untilted-free", o->untilted_free, "Do not take the lens of --untilted to be straight: find its tilt too");
 	c->add_option("--tilted", o->tilted, "NAME='GLOB': photographs of one tilted state; NAME of letters, digits and _ (- and . become _); may be repeated");
 	c->add_option("--model", o->model, ModelHelp())->capture_default_str();
 	c->add_option("--transfer", o->transfer, "Transfer curve of 8 and 16 bit pictures: srgb, linear or a gamma; OpenEXR is linear")->capture_default_str();

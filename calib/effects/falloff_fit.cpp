@@ -165,7 +165,7 @@ std::optional<double> FalloffFit::Minimise(FalloffUnknowns& x) const
 {
 	ceres::Problem problem;
 	Build(*this, x, problem);
-	return SolveLeastSquares({ ceres::DENSE_SCHUR, 60, 1e-9 }, problem);
+	return SolveLeastSquares({ ceres::DENSE_SCHUR, 200, 1e-9 }, problem);
 }
 
 bool FalloffFit::Search(double focal_length, FalloffUnknowns& x)

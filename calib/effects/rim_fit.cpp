@@ -185,7 +185,9 @@ std::optional<double> RimFit::Solve(const std::vector<Block>& blocks, Rims& rims
 		for (size_t i = 2 * k; i < 2 * k + 2; ++i)
 			x[i] = std::clamp(x[i], problem.GetParameterLowerBound(x.data(), int(i)), problem.GetParameterUpperBound(x.data(), int(i)));
 	}
-	const std::optional<double> final_cost = SolveLeastSquares({ ceres::DENSE_QR, iterations, 1e-6 }, problem);
+	LeastSquares how{ ceres::DENSE_QR, iterations, 1e-6 };
+	how.may_stop_early = true;   // the first rounds choose between starts
+	const std::optional<double> final_cost = SolveLeastSquares(how, problem);
 	FromNumbers(x.data(), rims);
 	return final_cost;
 }

@@ -171,6 +171,25 @@ void MeasureSquares(const Pictures& pictures, const Board& board, Photo& photo)
 	photo.white_saturated = clipped[white];
 }
 
+/// Whether neighbouring cells differ as only a pattern makes them: brightness falls off smoothly, and by a rim steeply, but then in a narrow part of
+/// the picture. Judged by second differences, which a gradient does not have.
+bool ShowsAPattern(const std::vector<BrightPatch>& cells, int columns)
+{
+	const double STEEP = 0.03;         // of the brightness; cos^4 of a 17 mm lens on 36 mm has 0.005 from cell to cell
+	const double MOST_STEEP = 0.15;    // of the cells; two rims of a lens that is wide open reach 0.1
+	size_t steep = 0, judged = 0;
+	for (size_t k = 1; k + 1 < cells.size(); ++k)
+	{
+		if (k % size_t(columns) == 0 || (k + 1) % size_t(columns) == 0)
+			continue;
+		const BrightPatch &l = cells[k - 1], &m = cells[k], &r = cells[k + 1];
+		const double noise = std::sqrt(l.sigma * l.sigma + 4 * m.sigma * m.sigma + r.sigma * r.sigma);
+		steep += std::abs(l.value - 2 * m.value + r.value) > 4 * noise + STEEP * std::max(m.value, 0.0);
+		++judged;
+	}
+	return judged > 0 && double(steep) > MOST_STEEP * double(judged);
+}
+
 }
 
 void MeasureWhite(const cv::Mat& linear, const Board& board, Photo& photo)
@@ -185,7 +204,7 @@ std::vector<BrightPatch> MeasureFlatField(const cv::Mat& linear, const std::stri
 {
 	const Pictures pictures = Split(linear);
 	const int cell = std::max(4, linear.cols / 40), columns = linear.cols / cell, rows = linear.rows / cell;
-	std::vector<BrightPatch> patches;
+	std::vector<BrightPatch> patches, all;
 	int clipped = 0;
 	for (int j = 0; j < rows; ++j)
 		for (int i = 0; i < columns; ++i)
@@ -194,10 +213,11 @@ std::vector<BrightPatch> MeasureFlatField(const cv::Mat& linear, const std::stri
 			for (int y = j * cell; y < (j + 1) * cell; ++y)
 				for (int x = i * cell; x < (i + 1) * cell; ++x)
 					pixels.Add(pictures, x, y);
+			all.push_back(pixels.Patch());
 			if (pixels.Clipped())
 				++clipped;
 			else
-				patches.push_back(pixels.Patch());
+				patches.push_back(all.back());
 		}
 	if (2 * clipped > columns * rows)
 		throw Refused(fmt::format("`flat_field` {}: {} of {} cells are clipped, which hides the fall-off: expose less, so that the brightest part stays below full scale", file, clipped, columns * rows));
@@ -206,6 +226,8 @@ std::vector<BrightPatch> MeasureFlatField(const cv::Mat& linear, const std::stri
 		brightest = std::max(brightest, p.value);
 	if (brightest < 0.01)
 		throw Refused(fmt::format("`flat_field` {}: the brightest cell is {:.4f} of full scale: too dark to measure; expose more", file, brightest));
+	if (ShowsAPattern(all, columns))
+		throw Refused(fmt::format("`flat_field` {}: shows a pattern, not an evenly lit plain surface: photograph a white wall or paper out of focus, or leave it out", file));
 	return patches;
 }
 

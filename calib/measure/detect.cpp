@@ -115,6 +115,13 @@ void MakeRightHanded(Points& points, const Board& b)
 			std::reverse(points.begin() + j * b.InnerColumns(), points.begin() + (j + 1) * b.InnerColumns());
 }
 
+/// The columns run up or down the picture, to 15 degrees: neither way is more upright than the other.
+bool OnItsSide(Points& points, const Board& b)
+{
+	const cv::Point2f across = At(points, b, b.InnerColumns() - 1, 0) - At(points, b, 0, 0);
+	return std::abs(across.x) < 0.27f * std::abs(across.y);
+}
+
 bool UpsideDown(Points& points, const Board& b)
 {
 	return At(points, b, b.InnerColumns() - 1, 0).x < At(points, b, 0, 0).x;
@@ -129,6 +136,9 @@ bool UpsideDown(Points& points, const Board& b)
 void Orient(Points& points, const cv::Mat& grey, const Board& b, const DetectOptions& options, const std::string& file)
 {
 	MakeRightHanded(points, b);
+	if (OnItsSide(points, b) && !options.any_orientation)
+		throw Refused(fmt::format("{}: the board stands on its side: its {} columns run up and down the picture. Is `board` {}x{} meant (columns are counted across the picture)? "
+			"If camera or board was turned, turn all pictures upright, or pass `any_orientation`", file, b.columns, b.rows, b.columns));
 	const bool black_first = Alternation(grey, BoardToPixels(points, b), 0, b.columns, 0, b.rows) > 0;
 	if ((b.columns + b.rows) % 2 != 0)
 	{

@@ -25,12 +25,14 @@ Vec3<double> EdgeInCamera(const Task& task, const Pose& pose, const Edge& edge)
 	return CameraFromBoard(pose.data(), task.board.X(edge.board_column), task.board.Y(edge.board_row));
 }
 
-double PredictedBlur(const Calibration& c, size_t s, size_t p, const Edge& edge)
+double PredictedBlur(const Calibration& c, size_t s, size_t p, const Edge& edge) { return PredictedBlurAs(c, s, s, p, edge); }
+
+double PredictedBlurAs(const Calibration& c, size_t lens, size_t s, size_t p, const Edge& edge)
 {
 	const Geometry& g = c.MainGeometry();
 	const Solution& solution = c.solution;
 	const Vec3<double> P = EdgeInCamera(c.task, g.states[s].poses[p], edge);
-	const Vec3<double> q = solution.states[s].q;
+	const Vec3<double> q = solution.states[lens].q;
 	const double d = solution.aperture_diameter.value, floor = solution.psf_floor_px.value;
 	// The paper's (4) takes the focal depth at the point's height, not along its ray.
 	if (solution.model == Model::PAPER)

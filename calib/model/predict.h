@@ -19,6 +19,9 @@ Vec3<double> EdgeInCamera(const Task& task, const Pose& pose, const Edge& edge);
 /// Blur width (px) that the calibration's own solution gives an edge, the lens's own blur included.
 double PredictedBlur(const Calibration& calibration, size_t state, size_t photo, const Edge& edge);
 
+/// The same if the lens stood as in the state `lens`.
+double PredictedBlurAs(const Calibration& calibration, size_t lens, size_t state, size_t photo, const Edge& edge);
+
 }
 
 #endif

@@ -66,7 +66,7 @@ Rows StateRows(const Calibration& c)
 	{
 		const StateCamera camera = FittedCamera(c, s);
 		const StateCameraSigma& sigma = camera.sigma;
-		const bool tilted = c.task.states[s].tilted;
+		const bool tilted = c.task.states[s].tilted || (c.task.untilted_free && c.solution.model != Model::PAPER);
 		rows.push_back({ Escape(camera.state), tilted ? WithSigma({ camera.lens_tilt_deg, sigma.lens_tilt_deg }, "°") : "none",
 			tilted ? WithSigma({ camera.tilt_direction_deg, sigma.tilt_direction_deg }, "°") : "–",
 			tilted ? WithSigma({ camera.focal_plane_tilt_deg, sigma.focal_plane_tilt_deg }, "°") : "parallel",
@@ -221,8 +221,11 @@ std::string PhotographsTable(const Calibration& c)
 			const BlurRatios ratios = RatiosOf(photo);
 			const auto left = std::find_if(c.solution.left_out.begin(), c.solution.left_out.end(), [&](const LeftOut& l) { return l.state == s && l.photo == p; });
 			const bool known = left != c.solution.left_out.end();
-			rows.push_back({ fmt::format("<i style=\"color:{}\">■</i> {} {}", html::PhotoColour(p), p + 1, Escape(BaseName(photo.file))), Escape(c.task.states[s].name), Number(g.states[s].photo_rms[p], 3),
-				Number(RmsBlur(c, s, p), 3), std::to_string(photo.edges.size()), std::to_string(photo.edges_dropped), Number(ratios.least, 3), Number(ratios.median, 3), Number(ratios.most, 3),
+			const auto check = std::find_if(c.photographs.begin(), c.photographs.end(), [&](const PhotographCheck& k) { return k.state == s && k.photo == p; });
+			const bool odd_places = check != c.photographs.end() && check->odd_places, odd_blur = check != c.photographs.end() && check->odd_blur;
+			const auto mark = [](const std::string& text, bool odd) { return odd ? "<b>" + text + " stands out</b>" : text; };
+			rows.push_back({ fmt::format("<i style=\"color:{}\">■</i> {} {}", html::PhotoColour(p), p + 1, Escape(BaseName(photo.file))), Escape(c.task.states[s].name), mark(Number(g.states[s].photo_rms[p], 3), odd_places),
+				mark(Number(RmsBlur(c, s, p), 3), odd_blur), std::to_string(photo.edges.size()), std::to_string(photo.edges_dropped), Number(ratios.least, 3), Number(ratios.median, 3), Number(ratios.most, 3),
 				known && s > 0 ? Number(left->tilt_change, 3) + "°" : "–", known ? Number(left->rms_blur, 3) : "–" });
 		}
 	return "<div class=\"files\">" + html::Table(rows) + "</div>\n";

@@ -29,6 +29,16 @@ std::string CornersCsv(const std::vector<Photo>& photos)
 	return csv;
 }
 
+std::string PhotographsCsv(const Calibration& c)
+{
+	std::string csv = "state,file,edges,corners_px,corners_of_others_px,blur_px,blur_of_others_px,stands_out,fits_state,same_as\n";
+	for (const PhotographCheck& p : c.photographs)
+		csv += fmt::format("{},{},{},{:.4f},{:.4f},{:.4f},{:.4f},{},{},{}\n", c.task.states[p.state].name, CsvField(c.task.states[p.state].photos[p.photo].file), p.edges, p.rms_places,
+			p.places_typical, p.rms_blur, p.blur_typical, int(p.odd_places || p.odd_blur), p.fits_state ? c.task.states[*p.fits_state].name : "",
+			p.same_as ? CsvField(c.task.states[p.same_as->first].photos[p.same_as->second].file) : "");
+	return csv;
+}
+
 std::string EdgesCsv(const std::vector<Photo>& photos)
 {
 	std::string csv = "file,x_px,y_px,nx,ny,blur_px,sigma_px\n";

@@ -200,6 +200,46 @@ Json ChromaticJson(const Calibration& c)
 	return json;
 }
 
+/// Each against the others, as the verdict judges them.
+Json PhotographsJson(const Calibration& c)
+{
+	Json list = Json::array();
+	for (const PhotographCheck& p : c.photographs)
+	{
+		Json entry{ { "state", c.task.states[p.state].name }, { "file", c.task.states[p.state].photos[p.photo].file }, { "edges", p.edges }, { "rms_reprojection_px", p.rms_places },
+			{ "rms_reprojection_others_px", p.places_typical }, { "rms_blur_px", p.rms_blur }, { "rms_blur_others_px", p.blur_typical }, { "stands_out", p.odd_places || p.odd_blur } };
+		if (p.fits_state)
+			entry["fits_state"] = c.task.states[*p.fits_state].name;
+		if (p.same_as)
+			entry["same_as"] = c.task.states[p.same_as->first].photos[p.same_as->second].file;
+		list.push_back(entry);
+	}
+	return list;
+}
+
+Json BoardCheckJson(const BoardCheck& b)
+{
+	Json json;
+	Put(json, "widening", "", b.widening);
+	Put(json, "bend_along_columns", "_mm", b.bend_along_columns);
+	Put(json, "bend_along_rows", "_mm", b.bend_along_rows);
+	Put(json, "twist", "_mm", b.twist);
+	json["rms_as_told_px"] = b.rms_flat;
+	json["rms_px"] = b.rms_free;
+	json["image_distance_change_mm"] = b.w_change;
+	return json;
+}
+
+/// Each pair once, and every number with itself.
+Json CovarianceJson(const NamedCovariance& c)
+{
+	Json json;
+	for (size_t i = 0; i < c.names.size(); ++i)
+		for (size_t j = i; j < c.names.size(); ++j)
+			json[c.names[i]][c.names[j]] = c.matrix[i * c.names.size() + j];
+	return json;
+}
+
 Json EffectsJson(const Calibration& c)
 {
 	Json list = Json::array();
@@ -213,8 +253,9 @@ Json EffectsJson(const Calibration& c)
 Json BoardJson(const Board& board)
 {
 	if (board.IsCheckerboard())
-		return { { "kind", NameOf(board.kind) }, { "squares", { board.columns, board.rows } }, { "square_mm", board.square_mm } };
-	return { { "kind", NameOf(board.kind) }, { "circles", { board.columns, board.rows } }, { "spacing_mm", board.square_mm }, { "circle_diameter_mm", board.circle_diameter_mm } };
+		return { { "kind", NameOf(board.kind) }, { "squares", { board.columns, board.rows } }, { "square_mm", board.square_mm }, { "square_sigma_mm", board.square_sigma_mm } };
+	return { { "kind", NameOf(board.kind) }, { "circles", { board.columns, board.rows } }, { "spacing_mm", board.square_mm }, { "spacing_sigma_mm", board.square_sigma_mm },
+		{ "circle_diameter_mm", board.circle_diameter_mm } };
 }
 
 }
@@ -249,6 +290,18 @@ std::string CalibrationJson(const Calibration& c)
 	for (const Correlation& r : c.solution.correlations)
 		json["correlations"][r.first][r.second] = r.value;
 	json["tilt_told_by"] = EvidenceJson(c);
+	if (!c.solution.covariance.names.empty())
+		json["covariance"] = CovarianceJson(c.solution.covariance);
+	if (!c.photographs.empty())
+		json["photographs"] = PhotographsJson(c);
+	if (c.board_check.known)
+		json["board_check"] = BoardCheckJson(c.board_check);
+	if (c.untilted_check.known)
+	{
+		Put(json["untilted_check"], "lens_tilt", "_deg", c.untilted_check.lens_tilt);
+		Put(json["untilted_check"], "tilt_direction", "_deg", c.untilted_check.tilt_direction);
+	}
+	json["converged"] = c.refined;
 	json["left_out"] = Json::array();
 	for (const LeftOut& l : c.solution.left_out)
 		json["left_out"].push_back({ { "state", c.task.states[l.state].name }, { "file", c.task.states[l.state].photos[l.photo].file },

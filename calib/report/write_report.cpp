@@ -36,7 +36,7 @@ std::string StateRows(const Calibration& c, const Solution& solution, const Geom
 	for (size_t s = 0; s < solution.states.size(); ++s)
 	{
 		const StateLens& l = solution.states[s];
-		const bool tilted = c.task.states[s].tilted;
+		const bool tilted = c.task.states[s].tilted || (c.task.untilted_free && solution.model != Model::PAPER);
 		double squares = 0;
 		for (const double r : g.states[s].photo_rms)
 			squares += r * r;
@@ -205,6 +205,7 @@ void WriteEverything(const Calibration& c, const RunNotes& notes, const ReadGrey
 		PlotBlur(c, s, folder, set);
 		set.Text(Join(folder, "camera-" + c.task.states[s].name + ".inc"), CameraInc(c, s));
 	}
+	set.Text(Join(folder, "photographs.csv"), PhotographsCsv(c));
 	set.Text(Join(folder, "report.txt"), SummaryTable(c));
 	spdlog::info("writing report.html");
 	set.Text(Join(folder, "report.html"), ReportHtml(c, notes, pictures));

@@ -78,11 +78,12 @@ void HoldUnused(LensModel model, Unknowns& x, ceres::Problem& problem)
 		double* const own = x.state[s].data();
 		if (!problem.HasParameterBlock(own))
 			continue;
-		if (HasFreePlanes(model) && s == 0)
+		const bool held = s == 0 && !x.untilted_free;
+		if (HasFreePlanes(model) && held)
 			problem.SetManifold(own, new ceres::SubsetManifold(3, { 0, 1 }));
-		if (model == LensModel::RIGID && s == 0)
+		if (model == LensModel::RIGID && held)
 			problem.SetParameterBlockConstant(own);
-		if (model == LensModel::RIGID && s > 0)
+		if (model == LensModel::RIGID && !held)
 			problem.SetManifold(own, new ceres::SubsetManifold(3, { 2 }));
 	}
 	if (HasFreePlanes(model))
@@ -151,7 +152,7 @@ std::optional<double> BlurFit::Minimise(Unknowns& x, Free free, size_t state) co
 {
 	ceres::Problem problem;
 	Build(*this, problem, x, free, state);
-	const std::optional<double> cost = SolveLeastSquares({ ceres::DENSE_QR, 100, 1e-10 }, problem);
+	const std::optional<double> cost = SolveLeastSquares({ ceres::DENSE_QR, 200, 1e-10 }, problem);
 	x.d = std::abs(x.d);
 	return cost;
 }

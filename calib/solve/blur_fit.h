@@ -37,6 +37,7 @@ struct Unknowns
 	double power = 0;          // 1/f, 1/mm; RIGID only
 	std::array<double, 2> curvature{ 0, 0 };   // footprint.h, 1/mm; BOWL: the first, BOWLS: both
 	std::vector<StateNumbers> state;
+	bool untilted_free = false;   // state 0 has a tilt too
 };
 
 /// Which unknowns move in a fit.

@@ -3,6 +3,7 @@
 #include "solve/fill_solution.h"
 
 #include "model/lens_model.h"
+#include "solve/named_covariance.h"
 #include <tiltcal/error.h>
 #include "model/tilt_angles.h"
 
@@ -52,9 +53,14 @@ std::vector<Correlation> CorrelationsOf(const Task& task, LensModel model, const
 
 }
 
-void FillSolution(const Task& task, const Geometry& g, const BlurFit& fit, const Unknowns& x, const LensCovariance& c, Solution& out)
+void FillSolution(const Task& task, const Geometry& g, const BlurFit& fit, const Unknowns& x, const LensCovariance& of_fit, Solution& out)
 {
 	const double w = g.w_px * task.pitch_mm;
+	std::vector<Vec3<double>> planes;
+	for (size_t s = 0; s < x.state.size(); ++s)
+		planes.push_back(fit.Plane(x, s));
+	const LensCovariance c = WithBoardSize(of_fit, x, planes, task.board.square_sigma_mm / task.board.square_mm);
+	out.covariance = Named(c, task);
 	out.lens = fit.model;
 	out.correlations = CorrelationsOf(task, fit.model, c);
 	out.w_mm = { w, c.Sigma(Number::IMAGE_DISTANCE) };
@@ -69,7 +75,7 @@ void FillSolution(const Task& task, const Geometry& g, const BlurFit& fit, const
 	for (size_t s = 0; s < x.state.size(); ++s)
 	{
 		StateLens lens;
-		FillStateLens(fit.Plane(x, s), w, c.OfPlaneAndImageDistance(s), lens);
+		FillStateLens(planes[s], w, c.OfPlaneAndImageDistance(s), lens);
 		out.states.push_back(lens);
 	}
 	double total = 0;

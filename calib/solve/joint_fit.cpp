@@ -73,9 +73,7 @@ void Build(const JointFit& fit, Geometry& g, Unknowns& x, ceres::Problem& proble
 		AddPriors(fit.task.priors, fit.model, { &g.w_px, fit.task.pitch_mm, &x.d, &x.power, x.state[0].data() }, problem);
 	HoldDistortion(g, problem);
 	HoldUnused(fit.model, x, problem);
-	for (size_t s = 0; s < g.states.size(); ++s)
-		if (g.states[s].principal_point_fixed)
-			problem.SetParameterBlockConstant(g.states[s].principal_point.data());
+	AddPrincipalPointPriors(fit.task, g, problem);
 	for (size_t s = 0; s < g.states.size(); ++s)
 		if (s == 0 || !g.shared_poses)
 			problem.SetParameterBlockConstant(&g.states[s].lens_centre.x);
@@ -212,8 +210,8 @@ bool JointFit::Minimise(Geometry& g, Unknowns& x) const
 {
 	ceres::Problem problem;
 	Build(*this, g, x, problem);
-	LeastSquares how{ ceres::DENSE_SCHUR, 60, 1e-9 };
-	how.threads = 2;
+	LeastSquares how{ ceres::DENSE_SCHUR, 200, 1e-9 };
+	how.threads = AllThreads();
 	const bool solved = SolveLeastSquares(how, problem).has_value();
 	x.d = std::abs(x.d);
 	SpreadPoses(g);

@@ -4,8 +4,27 @@
 
 #include <ceres/solver.h>
 
+#include <algorithm>
+#include <thread>
+#ifdef __linux__
+#include <sched.h>
+#endif
+
 namespace tiltcal
 {
+
+int AllThreads()
+{
+	int threads = static_cast<int>(std::thread::hardware_concurrency());
+#ifdef __linux__
+	// The machine's processors are not always this process's (taskset, a container).
+	cpu_set_t mine;
+	if (sched_getaffinity(0, sizeof(mine), &mine) == 0)
+		threads = CPU_COUNT(&mine);
+#endif
+	// More gain nothing at the size of these problems.
+	return std::clamp(threads, 1, 16);
+}
 
 std::optional<double> SolveLeastSquares(const LeastSquares& how, ceres::Problem& problem, std::string* why)
 {
@@ -19,7 +38,8 @@ std::optional<double> SolveLeastSquares(const LeastSquares& how, ceres::Problem&
 	options.logging_type = ceres::SILENT;
 	ceres::Solver::Summary summary;
 	ceres::Solve(options, &problem, &summary);
-	if (summary.IsSolutionUsable())
+	// Usable, to Ceres, is also where it stopped at the limit of iterations.
+	if (summary.termination_type == ceres::CONVERGENCE || (how.may_stop_early && summary.IsSolutionUsable()))
 		return summary.final_cost;
 	if (why)
 		*why = summary.message;

@@ -21,10 +21,14 @@ struct LeastSquares
 	int iterations = 50;
 	double function_tolerance = 1e-6, parameter_tolerance = 1e-8, gradient_tolerance = 1e-10;
 	int threads = 1;
+	bool may_stop_early = false;   ///< the limit of iterations is no failure
 };
 
-/// Solves in place, in silence. Returns the cost, half the sum of the squares as their losses count them; none where Ceres has no
-/// usable solution; then `why` holds its words.
+/// As many as this process may use. Sums come out in another order then, and results differ in their last digits.
+int AllThreads();
+
+/// Solves in place, in silence. Returns the cost, half the sum of the squares as their losses count them; none where Ceres did not
+/// converge; then `why` holds its words.
 std::optional<double> SolveLeastSquares(const LeastSquares& how, ceres::Problem& problem, std::string* why = nullptr);
 
 }

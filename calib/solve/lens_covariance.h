@@ -35,6 +35,7 @@ public:
 	{
 		int index;
 
+		explicit At(int place) : index(place) {}
 		At(Number number) : index(static_cast<int>(number)) {}
 		/// q of a state.
 		At(size_t state, Axis axis) : index(static_cast<int>(Number::COUNT) + 3 * static_cast<int>(state) + static_cast<int>(axis)) {}

@@ -69,6 +69,7 @@ Fitted FitFromNothing(LensModel model, const Task& task, const Geometry& geometr
 	f.by_power.assign(task.states.size(), false);
 	for (size_t s = 1; s < task.states.size(); ++s)
 		f.by_power[s] = SearchTilted(fit, task, geometry, s, f.x);
+	f.x.untilted_free = task.untilted_free;
 	Refine(model, task, w_mm, f);
 	return f;
 }

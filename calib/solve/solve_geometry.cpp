@@ -57,6 +57,29 @@ struct ImageDistanceCost
 	}
 };
 
+/// How far from the picture's centre the principal point of an untilted camera may well be, in widths of the picture.
+const double CENTRE_SHARE = 0.02;
+
+/// What is known of a principal point beforehand, px.
+struct PrincipalPointCost
+{
+	double u, v, sigma;
+
+	template<typename T>
+	bool operator()(const T* principal_point, T* residual) const
+	{
+		residual[0] = (principal_point[0] - T(u)) / T(sigma);
+		residual[1] = (principal_point[1] - T(v)) / T(sigma);
+		return true;
+	}
+};
+
+void HoldNearCentre(const Task& task, Point& principal_point, ceres::Problem& problem)
+{
+	problem.AddResidualBlock(new ceres::AutoDiffCostFunction<PrincipalPointCost, 2, 2>(new PrincipalPointCost{ 0.5 * (task.width - 1), 0.5 * (task.height - 1), CENTRE_SHARE * task.width }),
+		nullptr, principal_point.data());
+}
+
 /// OpenCV's rotation and translation in our frames (camera.h).
 Pose FromOpenCv(const cv::Mat& rvec, const cv::Mat& tvec)
 {
@@ -129,10 +152,10 @@ void Build(const Task& task, Geometry& g, double model_sigma, ceres::Problem& pr
 void Solve(ceres::Problem& problem)
 {
 	LeastSquares how{ ceres::DENSE_SCHUR, 200, 1e-12, 1e-12 };
-	how.threads = 2;
+	how.threads = AllThreads();
 	std::string why;
 	if (!SolveLeastSquares(how, problem, &why))
-		throw Refused("the reprojection fit did not converge: " + why);
+		throw Refused(fmt::format("the reprojection fit did not converge ({}), as where w is hardly determined: photograph the board inclined by 20 to 45 degrees, in three or more directions", why));
 }
 
 /// Standard deviations, rescaled by the residuals; false when the problem is singular.
@@ -197,20 +220,19 @@ double ModelSigma(const Task& task, const Geometry& g)
 	return std::max(RobustSigma(std::move(r)), 1e-4);
 }
 
-/// Fixes the principal points that the photographs leave open. True: some were fixed.
-bool FixLoosePrincipalPoints(const Task& task, Geometry& g, ceres::Problem& problem, bool solved)
+/// Holds the principal points that the photographs leave open. True: there are some.
+bool HoldLoosePrincipalPoints(const Task& task, Geometry& g, ceres::Problem& problem, bool solved)
 {
 	bool any = false;
 	for (size_t s = 0; s < g.states.size(); ++s)
 	{
-		double* block = g.states[s].principal_point.data();
 		// Two unknowns of the plane's homography are left for the sensor, per photo; three are wanted.
-		const bool loose = solved ? std::max(g.states[s].principal_point_sigma[0], g.states[s].principal_point_sigma[1]) > 0.02 * task.width
+		const bool loose = solved ? std::max(g.states[s].principal_point_sigma[0], g.states[s].principal_point_sigma[1]) > CENTRE_SHARE * task.width
 			: task.states[s].photos.size() < 2 && (s == 0 || !g.shared_poses);
-		if (!loose || problem.IsParameterBlockConstant(block))
+		if (!loose || g.states[s].principal_point_fixed)
 			continue;
 		g.states[s].principal_point = { 0.5 * (task.width - 1), 0.5 * (task.height - 1) };
-		problem.SetParameterBlockConstant(block);
+		HoldNearCentre(task, g.states[s].principal_point, problem);
 		g.states[s].principal_point_fixed = true;
 		any = true;
 	}
@@ -223,13 +245,11 @@ bool Fit(const Task& task, double model_sigma, Geometry& g)
 	ceres::Problem problem;
 	Build(task, g, model_sigma, problem);
 	HoldDistortion(g, problem);
-	for (size_t s = 0; s < g.states.size(); ++s)
-		if (g.states[s].principal_point_fixed)
-			problem.SetParameterBlockConstant(g.states[s].principal_point.data());
-	FixLoosePrincipalPoints(task, g, problem, false);
+	AddPrincipalPointPriors(task, g, problem);
+	HoldLoosePrincipalPoints(task, g, problem, false);
 	Solve(problem);
 	bool regular = Sigmas(problem, g);
-	if (regular && FixLoosePrincipalPoints(task, g, problem, true))
+	if (regular && HoldLoosePrincipalPoints(task, g, problem, true))
 	{
 		Solve(problem);
 		regular = Sigmas(problem, g);
@@ -257,6 +277,13 @@ std::vector<Vec3<double>> LensNormals(const Geometry& g)
 	for (const StateGeometry& state : g.states)
 		normals.push_back(state.lens_normal);
 	return normals;
+}
+
+void AddPrincipalPointPriors(const Task& task, Geometry& g, ceres::Problem& problem)
+{
+	for (StateGeometry& state : g.states)
+		if (state.principal_point_fixed)
+			HoldNearCentre(task, state.principal_point, problem);
 }
 
 void HoldDistortion(Geometry& g, ceres::Problem& problem)

@@ -29,7 +29,7 @@ struct GeometryOptions
 /// distance, common distortion about each state's own lens axis, a principal point per
 /// state, and a pose per photograph or per photograph number.
 /// Starts from cv::calibrateCamera. A principal point that the photographs do not
-/// determine (sigma above 2 % of the picture's width) stays at the picture's centre.
+/// determine (sigma above 2 % of the picture's width) is held near the picture's centre, to those 2 %.
 /// Throws Refused when w is not determined, naming what to photograph.
 Geometry SolveGeometry(const Task& task, const GeometryOptions& options);
 
@@ -46,6 +46,9 @@ inline Pose& PoseOf(Geometry& g, size_t state, size_t photo) { return g.states[g
 
 /// Keeps at 0 what the distortion model does not contain.
 void HoldDistortion(Geometry& geometry, ceres::Problem& problem);
+
+/// Adds what is known of the principal points that are `principal_point_fixed`: the picture's centre, give or take 2 % of its width.
+void AddPrincipalPointPriors(const Task& task, Geometry& geometry, ceres::Problem& problem);
 
 /// Fills photo_rms and rms.
 void MeasureReprojection(const Task& task, Geometry& geometry);

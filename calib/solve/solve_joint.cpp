@@ -18,18 +18,6 @@ namespace tiltcal
 namespace
 {
 
-Unknowns UnknownsOf(const Solution& s)
-{
-	Unknowns x;
-	x.d = s.aperture_diameter.value;
-	x.floor_squared = s.psf_floor_squared.value;
-	x.power = 1 / s.focal_length.value;
-	x.curvature = { s.field_curvature.value, 0.5 * (s.tangential_curvature.value - s.sagittal_curvature.value) };
-	for (const StateLens& state : s.states)
-		x.state.push_back(StateOfPlane(s.lens, state.q, s.w_mm.value));
-	return x;
-}
-
 ModelError ErrorOf(const std::vector<std::array<double, 2>>& residuals)
 {
 	const auto scale = [&](size_t k)
@@ -51,10 +39,23 @@ void SetNormals(const JointFit& fit, const Unknowns& x, Geometry& g)
 
 }
 
+Unknowns UnknownsOf(const Solution& s)
+{
+	Unknowns x;
+	x.d = s.aperture_diameter.value;
+	x.floor_squared = s.psf_floor_squared.value;
+	x.power = 1 / s.focal_length.value;
+	x.curvature = { s.field_curvature.value, 0.5 * (s.tangential_curvature.value - s.sagittal_curvature.value) };
+	for (const StateLens& state : s.states)
+		x.state.push_back(StateOfPlane(s.lens, state.q, s.w_mm.value));
+	return x;
+}
+
 bool RefineJointly(const Task& task, Refinement kind, Geometry& geometry, Solution& solution)
 {
 	Geometry g = geometry;
 	Unknowns x = UnknownsOf(solution);
+	x.untilted_free = task.untilted_free;
 	JointFit fit{ task, solution.lens, kind, {}, false };
 	for (int round = 0; round < 2; ++round)
 	{

@@ -8,6 +8,9 @@
 namespace tiltcal
 {
 
+/// Where a fit goes on from a solution.
+Unknowns UnknownsOf(const Solution& solution);
+
 /// Refines a solution of an exact model and its geometry together (joint_fit.h), in place: the numbers, all
 /// sigmas (correlations between geometry and blur included) and the RMS values. False, and nothing changed, where
 /// the fit does not converge or is singular.

@@ -48,7 +48,7 @@ bool CurvatureIsSeen(const Solution& plane, const Solution& curved);
 /// Features are the grid corners, their blur the mean of their edges' blur; no
 /// distortion, no floor, principal point at the picture's centre, plain least squares.
 /// Poses of tilted photographs are those of the untilted photograph of the same number
-/// when the counts agree, as in the paper, otherwise `start`'s.
+/// where `start` shares them, as in the paper, otherwise `start`'s.
 /// `start` gives the first guess; `found` receives stage 1's camera and poses.
 /// Not an exception but Solution::failure says why it failed: it is also run for comparison.
 Solution SolvePaper(const Task& task, const Geometry& start, Geometry& found);

@@ -248,7 +248,7 @@ void Solve(const Task& task, const Geometry& start, Geometry& found, Solution& o
 		state.principal_point_sigma = { 0, 0 };
 		state.principal_point_fixed = true;
 		if (s > 0)
-			state.poses = task.states[s].photos.size() == one.poses.size() ? one.poses : CentredPoses(task, start, s);
+			state.poses = start.shared_poses ? one.poses : CentredPoses(task, start, s);
 		StateLens lens;
 		Estimate slope{ 0, 0 };
 		const std::vector<StageTwoCost> costs = StageTwoCosts(task, task.states[s], one, found.states[s].poses);

@@ -14,6 +14,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -239,6 +240,24 @@ TEST(CalibrateVignetting, ClippedWhiteIsNotBelieved)
 	EXPECT_EQ(CodeOf([&] { ChooseEffects(ParseEffects("vignetting_natural"), c); }), EXIT_REFUSED);
 	ChooseEffects({}, c);
 	EXPECT_FALSE(Uses(c, EffectId::VIGNETTING_NATURAL));
+}
+
+TEST(BrightPatches, ASceneIsNoFlatField)
+{
+	std::mt19937 random(3);
+	std::normal_distribution<float> noise(0, 0.05f);
+	cv::Mat wall(480, 640, CV_32FC1), board = wall.clone();
+	for (int y = 0; y < wall.rows; ++y)
+		for (int x = 0; x < wall.cols; ++x)
+		{
+			// 60 degrees of field, lit from one side, SNR 10 to 20, and a rim that takes all light of the corners within a tenth of the height.
+			const double r = std::hypot(x - 319.5, y - 239.5) / 400, rim = std::clamp((1.0 - r) / 0.12, 0.05, 1.0);
+			const double fall_off = std::pow(1 + 0.33 * r * r, -2);
+			wall.at<float>(y, x) = float(0.8 * fall_off * rim * (1 + 0.2 * (x - 320) / 640)) + noise(random);
+			board.at<float>(y, x) = float(((x / 40 + y / 40) % 2 ? 0.8 : 0.05) * fall_off) + noise(random);
+		}
+	EXPECT_EQ(MeasureFlatField(wall, "wall").size(), 40u * 30u);
+	EXPECT_EQ(CodeOf([&] { MeasureFlatField(board, "board"); }), EXIT_REFUSED);
 }
 
 TEST(BrightPatches, ClippedAndDarkFlatFieldsAreRefused)

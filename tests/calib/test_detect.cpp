@@ -9,6 +9,7 @@
 #include "picture/image_io.h"
 #include "measure/measure.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
@@ -122,6 +123,39 @@ TEST(Detect, MirroredAndTurnedBoards)
 	EXPECT_NEAR(corners[0].y, turned.rows - 1 - p[1] / p[2], 0.1);
 }
 
+/// The words of a refusal; empty where there is none.
+std::string WordsOf(const cv::Mat& picture, const std::string& board, bool any_orientation = false)
+{
+	try
+	{
+		DetectCorners(picture, ParseBoard(board, 25), { any_orientation }, "painted");
+		return "";
+	}
+	catch (const Error& e)
+	{
+		EXPECT_EQ(e.Code(), EXIT_REFUSED);
+		return e.what();
+	}
+}
+
+TEST(Detect, ABoardOnItsSideIsSaidToBeAndNotMirrored)
+{
+	// Counted the other way round, or a camera turned to portrait whose pixels were not: which of its two ways is upright
+	// would be told by a hair. Odd and even boards alike.
+	for (const auto& [columns, rows] : { std::pair(12, 9), std::pair(12, 8), std::pair(11, 9) })
+	{
+		const Painted painted = Paint(columns, rows, 1.5);
+		const std::string right = std::to_string(columns) + "x" + std::to_string(rows), swapped = std::to_string(rows) + "x" + std::to_string(columns);
+		EXPECT_THAT(WordsOf(painted.image, swapped), testing::AllOf(testing::HasSubstr("`board` " + right), testing::Not(testing::HasSubstr("mirrored"))));
+		for (const int turn : { cv::ROTATE_90_CLOCKWISE, cv::ROTATE_90_COUNTERCLOCKWISE })
+		{
+			cv::Mat portrait;
+			cv::rotate(painted.image, portrait, turn);
+			EXPECT_THAT(WordsOf(portrait, right), testing::HasSubstr("on its side"));
+		}
+	}
+}
+
 TEST(Detect, AnEvenBoardShowsItsMirrorImage)
 {
 	// 12 x 8: the black corners lie on one diagonal, in the mirror on the other.
@@ -143,12 +177,17 @@ TEST(Detect, WrongSizesAreRefused)
 TEST(Detect, PhotographsOfTwoSizesAreRefused)
 {
 	const Painted painted = Paint(12, 9, 1.5);
-	const std::string a = testing::TempDir() + "tiltcal-size-a.png", b = testing::TempDir() + "tiltcal-size-b.png";
+	const std::string a = testing::TempDir() + "tiltcal-size-a.png", b = testing::TempDir() + "tiltcal-size-b.png", c = testing::TempDir() + "tiltcal-size-c.png";
 	WritePng(a, ToDisplay(painted.image));
+	WritePng(c, ToDisplay(0.99 * painted.image));
 	WritePng(b, ToDisplay(painted.image(cv::Rect(0, 0, painted.image.cols - 2, painted.image.rows))));
 	EXPECT_THROW(MeasureAll({ { "untilted", { a, b } } }, ParseBoard("12x9", 25), 0.02), Error);
-	EXPECT_EQ(MeasureAll({ { "untilted", { a, a } } }, ParseBoard("12x9", 25), 0.02).states[0].photos.size(), 2u);
+	EXPECT_EQ(MeasureAll({ { "untilted", { a, c } } }, ParseBoard("12x9", 25), 0.02).states[0].photos.size(), 2u);
+	// Twice the same, under any name.
+	std::filesystem::copy_file(a, b, std::filesystem::copy_options::overwrite_existing);
+	EXPECT_THROW(MeasureAll({ { "untilted", { a } }, { "tilted", { b } } }, ParseBoard("12x9", 25), 0.02), Error);
 	std::filesystem::remove(a);
+	std::filesystem::remove(c);
 	std::filesystem::remove(b);
 }
 

@@ -144,7 +144,7 @@ sets) # a folder has one run's files
 	# Another run: what was of the first alone goes, what is nobody's stays.
 	expect 0 $calibrate --untilted "$target/untilted-[1-2].jpg" --out result
 	says "of the earlier run in result"; says "camera-mine.inc: not of this run"; nothing_left
-	[ "$(ls result | tr '\n' ' ')" = "blur-untilted.csv blur-untilted.png calibration.json camera-mine.inc camera-untilted.inc overlay-untilted-1.png overlay-untilted-2.png overlay.txt report.html report.txt " ] \
+	[ "$(ls result | tr '\n' ' ')" = "blur-untilted.csv blur-untilted.png calibration.json camera-mine.inc camera-untilted.inc overlay-untilted-1.png overlay-untilted-2.png overlay.txt photographs.csv report.html report.txt " ] \
 		|| fail "result has $(ls result | tr '\n' ' ')" ;;
 crlf) # and a byte order mark
 	camera

@@ -107,7 +107,7 @@ std::vector<Placed> Inclined(double shift)
 	};
 }
 
-tiltcal::Photo Shoot(const Lens& lens, const Placed& pose, const Noise& noise, std::mt19937& random)
+tiltcal::Photo Shoot(const Lens& lens, const Placed& pose, const Noise& noise, std::mt19937& random, const Shape& shape = {})
 {
 	const tiltcal::Board board = TheBoard();
 	std::normal_distribution<double> normal(0, 1);
@@ -115,7 +115,11 @@ tiltcal::Photo Shoot(const Lens& lens, const Placed& pose, const Noise& noise, s
 	tiltcal::Photo photo;
 	photo.width = 1800;
 	photo.height = 1200;
-	const auto camera = [&](double column, double row) { return Vec(pose.R * Vec(board.X(column), board.Y(row), 0) + pose.t); };
+	const auto camera = [&](double column, double row) 
+	{
+		const Real along = 2 * Real(column) / (board.InnerColumns() - 1) - 1;
+		return Vec(pose.R * Vec(board.X(column) * (1 + shape.widening), board.Y(row), shape.bend * (1 - along * along)) + pose.t);
+	};
 	const auto pixel = [&](const Vec& P)
 	{
 		return Eigen::Vector2d(lens.cx + double(lens.w * P.x() / P.z()) / PITCH, lens.cy - double(lens.w * P.y() / P.z()) / PITCH);
@@ -162,14 +166,14 @@ double Lens::FocusDistance() const
 	return 1 / (c / f - 1 / w);
 }
 
-tiltcal::State Photograph(const std::string& name, const Lens& lens, const Noise& noise, int photos, double shift)
+tiltcal::State Photograph(const std::string& name, const Lens& lens, const Noise& noise, int photos, double shift, const Shape& shape)
 {
 	const std::vector<Placed> poses = Inclined(shift);
 	std::mt19937 random(noise.seed);
 	tiltcal::State state;
 	state.name = name;
 	for (int k = 0; k < photos; ++k)
-		state.photos.push_back(Shoot(lens, poses[size_t(k)], noise, random));
+		state.photos.push_back(Shoot(lens, poses[size_t(k)], noise, random, shape));
 	return state;
 }
 

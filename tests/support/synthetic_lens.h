@@ -34,11 +34,18 @@ struct Noise
 	unsigned seed = 1;
 };
 
+/// What a board is otherwise than told.
+struct Shape
+{
+	double widening = 0;                   // of its columns, relative
+	double bend = 0;                       // height of the arc along the columns, from the first to the last corner, mm
+};
+
 const double PITCH = 0.02;
 
 /// A state of boards (12x9 squares of 25 mm, 1800x1200 px) in six inclined poses, or the
 /// first `photos` of them, moved along the axis by `shift` mm.
-tiltcal::State Photograph(const std::string& name, const Lens& lens, const Noise& noise, int photos = 6, double shift = 0);
+tiltcal::State Photograph(const std::string& name, const Lens& lens, const Noise& noise, int photos = 6, double shift = 0, const Shape& shape = {});
 
 /// Where the first `photos` boards of Photograph stand.
 std::vector<tiltcal::Pose> PosesOfPhotographs(int photos, double shift = 0);

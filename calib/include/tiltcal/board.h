@@ -34,6 +34,7 @@ struct Board
 	/// Side of a square; distance of circles in a row and of rows. Asymmetric: distance of
 	/// rows, half the distance of circles in a row (OpenCV's squareSize).
 	double square_mm = 0;
+	double square_sigma_mm = 0;   ///< how well it is known
 	TargetKind kind = TargetKind::CHECKERBOARD;
 	double circle_diameter_mm = 0;
 

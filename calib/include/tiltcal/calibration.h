@@ -33,7 +33,7 @@ struct StateGeometry
 	/// Where the lens centre stands, seen from the untilted state's, camera frame, mm: a real lens turns about a pivot
 	/// away from its pupil. Free where poses are shared, else 0. `poses` hold it already.
 	Vec3<double> lens_centre{ 0, 0, 0 }, lens_centre_sigma{ 0, 0, 0 };
-	bool principal_point_fixed = false;            ///< not determined, and kept at the picture's centre
+	bool principal_point_fixed = false;            ///< not determined, and held near the picture's centre: to 2 % of its width (the paper's model: there)
 	Point principal_point{}, principal_point_sigma{};   ///< px
 	std::vector<Pose> poses, pose_sigmas;          ///< camera_from_board
 	std::vector<double> photo_rms;                 ///< reprojection, px: sqrt(mean(dx^2 + dy^2))
@@ -67,6 +67,13 @@ struct Correlation
 {
 	std::string first, second;
 	double value = 0;
+};
+
+/// Of everything that a fit finds together, in the units of calibration.json.
+struct NamedCovariance
+{
+	std::vector<std::string> names;
+	std::vector<double> matrix;   ///< row by row
 };
 
 /// What a fit without one photograph finds for that photograph's state, and how well it predicts it.
@@ -111,6 +118,7 @@ struct Solution
 	Estimate tangential_curvature, sagittal_curvature;
 	double held_out_px = 0;  ///< of blur left out; 0 when it was not asked for or cannot be had
 	std::vector<Correlation> correlations;   ///< of every pair of w, d, U and C, and of each with the tilts
+	NamedCovariance covariance;
 	std::vector<LeftOut> left_out;   ///< each photograph in turn
 	std::string failure;     ///< why there is no answer; empty when there is one
 };
@@ -239,6 +247,34 @@ struct LightCheck
 	Estimate bend;
 };
 
+/// How well one photograph agrees with the rest.
+struct PhotographCheck
+{
+	size_t state = 0, photo = 0, edges = 0;
+	double rms_places = 0, rms_blur = 0;   ///< of its corners and of its edges' blur, px
+	double places_typical = 0, blur_typical = 0;   ///< the same of the other photographs, their median, px
+	std::optional<size_t> fits_state;      ///< its blur is that of this other state
+	std::optional<std::pair<size_t, size_t>> same_as;   ///< state and photograph that was measured alike, noise and all
+	bool odd_places = false, odd_blur = false;   ///< it stands out
+};
+
+/// What the corners say of the board's shape: the same fit with a board that need not be as it was told. Nothing else uses it.
+struct BoardCheck
+{
+	bool known = false;
+	Estimate widening;             ///< columns over rows of its squares, minus 1; pixels that are not square look the same
+	Estimate bend_along_columns, bend_along_rows, twist;   ///< height of the arc over the board's width and height, and of its corners, mm
+	double rms_flat = 0, rms_free = 0;   ///< of the corners, px
+	double w_change = 0;           ///< of the image distance, mm
+};
+
+/// What blur says of the untilted state's tilt when it is let free.
+struct UntiltedCheck
+{
+	bool known = false;
+	Estimate lens_tilt, tilt_direction;   ///< degrees
+};
+
 enum class Grade
 {
 	GOOD,   ///< nothing speaks against it
@@ -269,6 +305,10 @@ struct Calibration
 	Geometry pinhole;            ///< without distortion, for a renderer that has none
 	Solution solution;           ///< of the model asked for, with `geometry`
 	Solution render;             ///< the same model with `pinhole`: the camera where distortion is switched off
+	bool refined = true;         ///< false: the joint refinement was asked for and did not converge
+	std::vector<PhotographCheck> photographs;   ///< of the exact models
+	BoardCheck board_check;
+	UntiltedCheck untilted_check;
 	std::vector<StateLens> blur_alone;      ///< the same before the joint refinement: blur, with the geometry held
 	GeometryAlone geometry_alone;
 	std::optional<ModelComparison> compared;   ///< when the model was to be chosen

@@ -64,6 +64,7 @@ struct Task
 	int width = 0, height = 0;
 	std::vector<State> states;     ///< untilted first
 	std::vector<Prior> priors;     ///< what is known beforehand
+	bool untilted_free = false;    ///< the untilted state may be tilted a little: by how much is found, not taken to be 0
 	std::vector<FlatField> flat_fields;
 	FixedBlades blades;            ///< told; nothing measures them
 };

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// Whether the untilted state is.
+
+#ifndef TILTCAL_CHECK_UNTILTED_H
+#define TILTCAL_CHECK_UNTILTED_H
+
+#include <tiltcal/calibration.h>
+
+namespace tiltcal
+{
+
+/// The blur once more, with the untilted state's tilt free and the geometry held. Not known where the fit has no answer.
+UntiltedCheck CheckUntilted(const Calibration& calibration);
+
+}
+
+#endif

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "calibrate/verdict_remarks.h"
+
+#include "base/robust.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tiltcal
+{
+
+namespace
+{
+
+/// A check with a thousand corners behind it sees what no render shows: said are findings this many sigma from nothing..
+const double SURE = 5;
+/// ..without which the corners fit better by a tenth, so that it is not one aberration among others,
+const double WORTH_SAYING = 0.9;
+/// or by half, so that it is what limits the calibration.
+const double DECIDES = 0.5;
+
+/// Degrees: what tilts are known to in a good calibration, and ten times that.
+const double TILT_SEEN = 0.05, TILT_LARGE = 0.5;
+
+double Share(double part, double whole) { return whole > 0 ? part / whole : 1; }
+
+const std::string& FileOf(const Task& task, size_t state, size_t photo) { return task.states[state].photos[photo].file; }
+
+void AddOdd(const Calibration& c, const PhotographCheck& p, std::vector<Remark>& remarks)
+{
+	const std::string who = fmt::format("state {}: {}: ", c.task.states[p.state].name, FileOf(c.task, p.state, p.photo));
+	if (p.odd_blur)
+		remarks.push_back({ Grade::POOR, who + fmt::format("its blur fits to {:.2f} px, that of the others to {:.2f} px; {}", p.rms_blur, p.blur_typical, p.fits_state
+			? fmt::format("it fits the lens of state {}: file it there", c.task.states[*p.fits_state].name)
+			: std::string("was the lens tilted, focused or stopped otherwise, or the camera shaken? Leave it out or file it in its own state")) });
+	if (p.odd_places)
+		remarks.push_back({ Grade::POOR, who + fmt::format("its corners fit to {:.2f} px, those of the others to {:.2f} px: is it of the same camera and board? Leave it out, and look", p.rms_places, p.places_typical) });
+}
+
+double TypicalNoise(const Task& task)
+{
+	std::vector<double> noise;
+	for (const State& state : task.states)
+		for (const Photo& photo : state.photos)
+			for (const Corner& corner : photo.corners)
+				noise.push_back(corner.sigma);
+	return noise.empty() ? 0 : Median(std::move(noise));
+}
+
+/// "the squares are 1.00 +- 0.01 % wider than high", ..; empty where nothing is sure.
+std::string ShapeWords(const BoardCheck& b)
+{
+	std::string words;
+	const auto add = [&](const Estimate& e, const std::string& text)
+	{
+		if (std::abs(e.value) > SURE * e.sigma)
+			words += (words.empty() ? "" : ", ") + text;
+	};
+	add(b.widening, fmt::format("its squares are {:.3f} +- {:.3f} % {} than high (or the pixels are)", 100 * std::abs(b.widening.value), 100 * b.widening.sigma, b.widening.value > 0 ? "wider" : "narrower"));
+	add(b.bend_along_columns, fmt::format("it is bent by {:.2f} +- {:.2f} mm over its width", std::abs(b.bend_along_columns.value), b.bend_along_columns.sigma));
+	add(b.bend_along_rows, fmt::format("it is bent by {:.2f} +- {:.2f} mm over its height", std::abs(b.bend_along_rows.value), b.bend_along_rows.sigma));
+	add(b.twist, fmt::format("its corners are twisted by {:.2f} +- {:.2f} mm", std::abs(b.twist.value), b.twist.sigma));
+	return words;
+}
+
+}
+
+std::vector<Remark> JudgePhotographs(const Calibration& c)
+{
+	std::vector<Remark> remarks;
+	for (const PhotographCheck& p : c.photographs)
+	{
+		AddOdd(c, p, remarks);
+		if (p.same_as)
+			remarks.push_back({ Grade::FAIR, fmt::format("{} and {} are the same photograph, noise and all: it is counted twice, and the sigmas are too small; leave one out",
+				FileOf(c.task, p.state, p.photo), FileOf(c.task, p.same_as->first, p.same_as->second)) });
+	}
+	return remarks;
+}
+
+std::vector<Remark> JudgeBoard(const Calibration& c)
+{
+	std::vector<Remark> remarks;
+	const double noise = std::sqrt(2.0) * TypicalNoise(c.task);   // of both coordinates, as rms is
+	const BoardCheck& b = c.board_check;
+	const std::string shape = b.known ? ShapeWords(b) : "";
+	const double left = Share(b.rms_free, b.rms_flat);
+	if (!shape.empty() && left < WORTH_SAYING)
+		remarks.push_back({ left < DECIDES ? Grade::POOR : Grade::FAIR, fmt::format("the corners fit to {:.3f} px, and to {:.3f} px if the board is not as it was told: {}. The image distance would change by {:.3f} mm. "
+			"Measure the print in both directions, and glue it to glass", b.rms_flat, b.rms_free, shape, b.w_change) });
+	else if (c.geometry.rms > 3 * noise)
+		remarks.push_back({ Grade::GOOD, fmt::format("the corners fit to {:.3f} px, their noise is {:.3f} px: places are limited by what the camera model leaves out, and the sigmas hold that only as far as it scatters",
+			c.geometry.rms, noise) });
+	return remarks;
+}
+
+std::vector<Remark> JudgeUntilted(const Calibration& c)
+{
+	const Estimate& tilt = c.untilted_check.lens_tilt;
+	const double size = std::abs(tilt.value);
+	if (!c.untilted_check.known || c.task.untilted_free || size < SURE * tilt.sigma || size < TILT_SEEN)
+		return {};
+	return { { size > TILT_LARGE ? Grade::POOR : Grade::FAIR, fmt::format("state {}: its blur says that the lens is tilted by {:.2f} +- {:.2f} degrees towards {:.0f}, and the tilts of the others are off by about as much: "
+		"set the lens straight, or give `untilted_free`", c.task.states[0].name, size, tilt.sigma, c.untilted_check.tilt_direction.value + (tilt.value < 0 ? 180 : 0)) } };
+}
+
+}

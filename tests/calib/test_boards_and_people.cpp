@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// Boards and people as they are: what is wrong is named in the verdict, and a set in which nothing is wrong is left in peace.
+
+#include <tiltcal/calibrate.h>
+#include <tiltcal/error.h>
+#include "calibrate/verdict.h"
+#include "report/write_csv.h"
+#include "solve/least_squares.h"
+#include "support/synthetic_lens.h"
+
+#include <ceres/autodiff_cost_function.h>
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#ifdef __linux__
+#include <sched.h>
+#endif
+
+namespace
+{
+
+using namespace tiltcal;
+using namespace synthetic;
+using testing::AllOf;
+using testing::Contains;
+using testing::Each;
+using testing::Field;
+using testing::HasSubstr;
+using testing::Not;
+
+/// As measured in clean renders: corners to 0.03 px, blur to 0.06 px.
+Noise NoiseOf(unsigned seed) { return { 0.03, 0.06, seed }; }
+
+const CalibrateOptions PLANE{ Model::PLANE, Poses::AUTO };
+
+auto Says(const std::string& words) { return Contains(Field(&Remark::text, HasSubstr(words))); }
+
+void NameFiles(Task& task)
+{
+	for (State& state : task.states)
+		for (size_t p = 0; p < state.photos.size(); ++p)
+			state.photos[p].file = fmt::format("{}-{}.png", state.name, p + 1);
+}
+
+Task Named(std::vector<State> states)
+{
+	Task task = MakeTask(std::move(states));
+	NameFiles(task);
+	return task;
+}
+
+std::string Text(const Verdict& verdict)
+{
+	std::string text;
+	for (const Remark& r : verdict.remarks)
+		text += std::string(NameOf(r.grade)) + ": " + r.text + "\n";
+	return text;
+}
+
+TEST(BoardsAndPeople, NothingIsSaidOfAGoodSet)
+{
+	for (const unsigned seed : { 11u, 21u })
+	{
+		const Calibration c = Calibrate(Named({ Photograph("untilted", Lens(), NoiseOf(seed)), Photograph("tilted", Tilted(5, 30), NoiseOf(seed + 1)) }), PLANE);
+		EXPECT_THAT(c.photographs, Each(AllOf(Field(&PhotographCheck::odd_blur, false), Field(&PhotographCheck::odd_places, false), Field(&PhotographCheck::same_as, std::nullopt))));
+		EXPECT_EQ(c.verdict.grade, Grade::GOOD) << Text(c.verdict);
+		for (const char* const word : { "board is not", "blur says", "same photograph", ".png" })
+			EXPECT_THAT(c.verdict.remarks, Not(Says(word)));
+		EXPECT_TRUE(c.board_check.known && c.untilted_check.known);
+		// Four numbers about nothing: 4 sigma each fail once in 4000 runs.
+		for (const Estimate& e : { c.board_check.widening, c.board_check.bend_along_columns, c.board_check.bend_along_rows, c.board_check.twist, c.untilted_check.lens_tilt })
+			EXPECT_LT(std::abs(e.value), 4 * e.sigma);
+	}
+}
+
+TEST(BoardsAndPeople, ATiltedPhotographAmongTheUntiltedIsNamedWithItsState)
+{
+	State untilted = Photograph("untilted", Lens(), NoiseOf(1));
+	const State tilted = Photograph("tilted", Tilted(5), NoiseOf(2)), more = Photograph("tilted", Tilted(5), NoiseOf(3));
+	untilted.photos[2] = more.photos[2];
+	const Task task = Named({ untilted, tilted });
+	const Calibration c = Calibrate(task, PLANE);
+	EXPECT_EQ(c.verdict.grade, Grade::POOR);
+	EXPECT_THAT(c.verdict.remarks, Says("untilted-3.png: its blur fits"));
+	EXPECT_THAT(c.verdict.remarks, Says("it fits the lens of state tilted"));
+	for (const PhotographCheck& p : c.photographs)
+		EXPECT_EQ(p.odd_blur, p.state == 0 && p.photo == 2) << task.states[p.state].photos[p.photo].file;
+	EXPECT_THAT(PhotographsCsv(c), testing::ContainsRegex("untilted,untilted-3.png,.*,1,tilted,"));
+}
+
+TEST(BoardsAndPeople, AResidualTiltIsSeenAndCanBeLetFree)
+{
+	for (const double residual : { 0.3, 1.0 })
+	{
+		const Lens almost = Tilted(residual, 40), tilted = Tilted(5, 90);
+		Task task = Named({ Photograph("untilted", almost, NoiseOf(4)), Photograph("tilted", tilted, NoiseOf(5)) });
+		const Calibration held = Calibrate(task, PLANE);
+		EXPECT_EQ(held.verdict.grade, residual > 0.5 ? Grade::POOR : Grade::FAIR) << Text(held.verdict);
+		EXPECT_THAT(held.verdict.remarks, AllOf(Says("its blur says that the lens is tilted by"), Not(Says("aberrations"))));
+		task.untilted_free = true;
+		const Calibration free = Calibrate(task, PLANE);
+		EXPECT_THAT(free.verdict.remarks, Not(Says("its blur says")));
+		for (const auto& [state, lens] : { std::pair(size_t(0), almost), std::pair(size_t(1), tilted) })
+		{
+			const StateLens& found = free.solution.states[state];
+			const double sigma = std::hypot(found.lens_tilt.sigma, found.tilt_direction.sigma * std::abs(lens.tilt) * 0.01745);
+			EXPECT_LT(TiltError(found, lens), 4 * sigma);
+		}
+	}
+}
+
+TEST(BoardsAndPeople, APrintThatIsOffInOneAxisIsFound)
+{
+	const Shape wide{ 0.01, 0 };
+	const Calibration c = Calibrate(Named({ Photograph("untilted", Lens(), NoiseOf(6), 6, 0, wide), Photograph("tilted", Tilted(5), NoiseOf(7), 6, 0, wide) }), PLANE);
+	EXPECT_EQ(c.verdict.grade, Grade::POOR);
+	EXPECT_THAT(c.verdict.remarks, AllOf(Says("wider than high"), Not(Says("bent"))));
+	EXPECT_NEAR(c.board_check.widening.value, 0.01, 4 * c.board_check.widening.sigma);
+}
+
+TEST(BoardsAndPeople, ABentBoardIsFound)
+{
+	for (const double bend : { -1.0 })
+	{
+		const Shape bent{ 0, bend };
+		const Calibration c = Calibrate(Named({ Photograph("untilted", Lens(), NoiseOf(6), 6, 0, bent), Photograph("tilted", Tilted(5), NoiseOf(7), 6, 0, bent) }), PLANE);
+		EXPECT_NE(c.verdict.grade, Grade::GOOD);
+		EXPECT_THAT(c.verdict.remarks, AllOf(Says("over its width"), Not(Says("wider"))));
+		EXPECT_NEAR(c.board_check.bend_along_columns.value, bend, 4 * c.board_check.bend_along_columns.sigma);
+	}
+}
+
+TEST(BoardsAndPeople, AForeignBoardsPhotographIsNamed)
+{
+	State tilted = Photograph("tilted", Tilted(5), NoiseOf(2));
+	tilted.photos[4] = Photograph("tilted", Tilted(5), NoiseOf(2), 6, 0, { 0.05, 3 }).photos[4];
+	const Calibration c = Calibrate(Named({ Photograph("untilted", Lens(), NoiseOf(1)), tilted }), PLANE);
+	EXPECT_EQ(c.verdict.grade, Grade::POOR);
+	EXPECT_THAT(c.verdict.remarks, Says("tilted-5.png: its corners fit"));
+}
+
+TEST(BoardsAndPeople, TheSamePhotographTwiceIsSeenAndABoardThatStoodStillIsNot)
+{
+	State twice = Photograph("tilted", Tilted(5), NoiseOf(8));
+	twice.photos.push_back(twice.photos[1]);
+	const Calibration c = Calibrate(Named({ Photograph("untilted", Lens(), NoiseOf(9)), twice }), PLANE);
+	EXPECT_EQ(c.verdict.grade, Grade::FAIR);
+	EXPECT_THAT(c.verdict.remarks, Says("tilted-7.png and tilted-2.png are the same photograph"));
+
+	State still = Photograph("tilted", Tilted(5), NoiseOf(8));
+	still.photos.push_back(Photograph("tilted", Tilted(5), NoiseOf(10)).photos[1]);
+	EXPECT_THAT(Calibrate(Named({ Photograph("untilted", Lens(), NoiseOf(9)), still }), PLANE).verdict.remarks, Not(Says("same photograph")));
+}
+
+TEST(BoardsAndPeople, OneUntiltedPhotographKnowsItsImageDistanceAsWellAsItSays)
+{
+	// A principal point 15 px, one of its sigmas, from the picture's centre.
+	Lens lens, tilted = Tilted(5);
+	lens.cx = tilted.cx += 15;
+	lens.cy = tilted.cy -= 15;
+	for (const unsigned seed : { 1u, 2u, 3u })
+	{
+		const Calibration c = Calibrate(Named({ Photograph("untilted", lens, NoiseOf(seed), 1), Photograph("tilted", tilted, NoiseOf(seed + 10), 1) }), PLANE);
+		EXPECT_TRUE(c.geometry.states[0].principal_point_fixed);
+		EXPECT_GT(c.geometry.states[0].principal_point_sigma[0], 0);
+		EXPECT_LT(std::abs(c.solution.w_mm.value - lens.w), 3 * c.solution.w_mm.sigma) << c.solution.w_mm.value << " +- " << c.solution.w_mm.sigma;
+		EXPECT_THAT(c.verdict.remarks, Says("give or take 2 %"));
+	}
+}
+
+TEST(BoardsAndPeople, TheSquaresSigmaReachesWhatGrowsWithTheBoard)
+{
+	Task task = Named({ Photograph("untilted", Lens(), NoiseOf(1)), Photograph("tilted", Tilted(5), NoiseOf(2)) });
+	const Calibration exact = Calibrate(task, PLANE);
+	const double relative = 0.01;
+	task.board.square_sigma_mm = relative * task.board.square_mm;
+	const Calibration about = Calibrate(task, PLANE);
+	task.board.square_mm *= 1 + relative;
+	task.board.square_sigma_mm = 0;
+	const Calibration larger = Calibrate(task, PLANE);
+	const auto expect = [&](const Estimate& a, const Estimate& with, const Estimate& b, const char* what)
+	{
+		EXPECT_NEAR(a.value, with.value, 1e-6 * a.sigma) << what;
+		// First order in `relative`: to 1 %, twice that for products.
+		EXPECT_NEAR(std::sqrt(with.sigma * with.sigma - a.sigma * a.sigma), std::abs(b.value - a.value), 0.03 * std::abs(b.value - a.value) + 0.1 * a.sigma) << what;
+	};
+	expect(exact.solution.aperture_diameter, about.solution.aperture_diameter, larger.solution.aperture_diameter, "d");
+	expect(exact.solution.focus_distance, about.solution.focus_distance, larger.solution.focus_distance, "U");
+	expect(exact.solution.focal_length, about.solution.focal_length, larger.solution.focal_length, "f");
+	expect(exact.solution.states[1].lens_tilt, about.solution.states[1].lens_tilt, larger.solution.states[1].lens_tilt, "tilt");
+	EXPECT_NEAR(exact.solution.w_mm.sigma, about.solution.w_mm.sigma, 1e-6 * exact.solution.w_mm.sigma);
+	EXPECT_NEAR(about.geometry.states[0].pose_sigmas[0][5], relative * about.geometry.states[0].poses[0][5], 1);
+}
+
+TEST(BoardsAndPeople, TheCovarianceIsWholeAndAgreesWithTheSigmas)
+{
+	const Calibration c = Calibrate(Named({ Photograph("untilted", Lens(), NoiseOf(1)), Photograph("tilted", Tilted(5), NoiseOf(2)) }), PLANE);
+	const NamedCovariance& v = c.solution.covariance;
+	const std::vector<std::string> names{ "image_distance_mm", "aperture_diameter_mm", "psf_floor_squared_px2", "untilted.q_z_per_mm", "tilted.q_x_per_mm", "tilted.q_y_per_mm", "tilted.q_z_per_mm" };
+	ASSERT_EQ(v.names, names);
+	ASSERT_EQ(v.matrix.size(), names.size() * names.size());
+	EXPECT_NEAR(std::sqrt(v.matrix[0]), c.solution.w_mm.sigma, 1e-9);
+	EXPECT_NEAR(std::sqrt(v.matrix[4 * names.size() + 4]), c.solution.states[1].q_sigma.x, 1e-12);
+	for (size_t i = 0; i < names.size(); ++i)
+		for (size_t j = 0; j < names.size(); ++j)
+			EXPECT_NEAR(v.matrix[i * names.size() + j], v.matrix[j * names.size() + i], 1e-12);
+}
+
+TEST(BoardsAndPeople, EqualNumbersInOtherPosesDoNotMisleadThePapersModel)
+{
+	// Upward, as the paper's model takes it. The same photographs in another order are the same photographs.
+	const State untilted = Photograph("untilted", Lens(), NoiseOf(1));
+	State tilted = Photograph("tilted", Tilted(5), NoiseOf(2));
+	const Calibration in_order = Calibrate(Named({ untilted, tilted }), PLANE);
+	std::rotate(tilted.photos.begin(), tilted.photos.begin() + 1, tilted.photos.end());
+	const Calibration c = Calibrate(Named({ untilted, tilted }), PLANE);
+	ASSERT_TRUE(in_order.geometry.shared_poses);
+	ASSERT_FALSE(c.geometry.shared_poses);
+	ASSERT_EQ(c.paper.failure, "");
+	const Estimate &own = c.paper.states[1].lens_tilt, &shared = in_order.paper.states[1].lens_tilt;
+	// Own poses, which the model's missing tilt of the picture moves a little, against the untilted ones'.
+	EXPECT_NEAR(own.value, shared.value, 0.5);
+}
+
+TEST(BoardsAndPeople, AFailedRefinementIsInTheVerdict)
+{
+	Calibration c = Calibrate(Named({ Photograph("untilted", Lens(), NoiseOf(1)), Photograph("tilted", Tilted(5), NoiseOf(2)) }), PLANE);
+	ASSERT_TRUE(c.refined);
+	c.refined = false;
+	EXPECT_EQ(Judge(c).grade, Grade::POOR);
+	EXPECT_THAT(Judge(c).remarks, Says("did not converge"));
+}
+
+TEST(BoardsAndPeople, WhatIsKnownBetterFollowsTheCorrelationsSign)
+{
+	Calibration c = Calibrate(Named({ Photograph("untilted", Lens(), NoiseOf(1)), Photograph("tilted", Tilted(5), NoiseOf(2)) }), PLANE);
+	c.solution.correlations = { { "image_distance", "focus_distance", 0.99 }, { "image_distance", "aperture_diameter", -0.99 }, { "a.q_x", "b.q_x", 0.99 }, { "a.q_y", "b.q_y", -0.99 }, { "image_distance", "a.q_y", 0.99 } };
+	const std::vector<Remark> remarks = Judge(c).remarks;
+	for (const char* const words : { "their ratio", "their product", "their difference", "their sum", "their combination" })
+		EXPECT_THAT(remarks, Says(words));
+}
+
+struct Rosenbrock
+{
+	template<typename T>
+	bool operator()(const T* x, T* residual) const
+	{
+		residual[0] = T(10) * (x[1] - x[0] * x[0]);
+		residual[1] = T(1) - x[0];
+		return true;
+	}
+};
+
+TEST(LeastSquares, TheLimitOfIterationsIsNoConvergence)
+{
+	const auto solve = [](int iterations, bool may_stop_early)
+	{
+		double x[2] = { -1.2, 1 };
+		ceres::Problem problem;
+		problem.AddResidualBlock(new ceres::AutoDiffCostFunction<Rosenbrock, 2, 2>(new Rosenbrock), nullptr, x);
+		LeastSquares how{ ceres::DENSE_QR, iterations, 1e-12 };
+		how.may_stop_early = may_stop_early;
+		return SolveLeastSquares(how, problem).has_value();
+	};
+	EXPECT_FALSE(solve(3, false));
+	EXPECT_TRUE(solve(3, true));
+	EXPECT_TRUE(solve(200, false));
+}
+
+#ifdef __linux__
+TEST(LeastSquares, OneThreadFindsTheSame)
+{
+	const Task task = Named({ Photograph("untilted", Lens(), NoiseOf(1)), Photograph("tilted", Tilted(5), NoiseOf(2)) });
+	cpu_set_t all, one;
+	ASSERT_EQ(sched_getaffinity(0, sizeof(all), &all), 0);
+	if (CPU_COUNT(&all) < 2)
+		GTEST_SKIP() << "one processor";
+	EXPECT_GT(AllThreads(), 1);
+	const Calibration many = Calibrate(task, PLANE);
+	CPU_ZERO(&one);
+	for (int k = 0; k < CPU_SETSIZE && CPU_COUNT(&one) == 0; ++k)
+		if (CPU_ISSET(k, &all))
+			CPU_SET(k, &one);
+	ASSERT_EQ(sched_setaffinity(0, sizeof(one), &one), 0);
+	EXPECT_EQ(AllThreads(), 1);
+	const Calibration single = Calibrate(task, PLANE);
+	sched_setaffinity(0, sizeof(all), &all);
+	// Where it stops may differ within the tolerance of the cost, 1e-9: 1e-4 of a sigma.
+	EXPECT_NEAR(many.solution.w_mm.value, single.solution.w_mm.value, 1e-3 * single.solution.w_mm.sigma);
+	EXPECT_NEAR(many.solution.states[1].lens_tilt.value, single.solution.states[1].lens_tilt.value, 1e-3 * single.solution.states[1].lens_tilt.sigma);
+}
+#endif
+
+}
