@@ -16,8 +16,18 @@ namespace
 using tiltcal::Board;
 using tiltcal::TargetKind;
 
-Board Squares(int columns, int rows) { return { columns, rows, 0, TargetKind::CHECKERBOARD, 0 }; }
-Board Circles(int columns, int rows) { return { columns, rows, 0, TargetKind::CIRCLES, 0 }; }
+/// Its size is chosen with the pictures.
+Board Unsized(TargetKind kind, int columns, int rows)
+{
+	Board board;
+	board.kind = kind;
+	board.columns = columns;
+	board.rows = rows;
+	return board;
+}
+
+Board Squares(int columns, int rows) { return Unsized(TargetKind::CHECKERBOARD, columns, rows); }
+Board Circles(int columns, int rows) { return Unsized(TargetKind::CIRCLES, columns, rows); }
 
 const double FAR_AWAY = HUGE_VAL;
 
