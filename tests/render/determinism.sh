@@ -20,15 +20,20 @@ state() {
 	[ -f killed.pov-state ] && wc -c < killed.pov-state || echo 0
 }
 
-threads_and_strips() {
+# PROGRAM, what it shows, the last row of the upper part, the last row of all
+threads_and_rows() {
 	render "$1" whole.ppm scene.pov $size
 	for n in 2 4; do
 		render "$1" threads.ppm scene.pov $size +WT$n
 		check "$2, $n threads" "$compare" same whole.ppm threads.ppm
 	done
-	render "$1" top.ppm scene.pov $size +SR1 +ER50
-	render "$1" bottom.ppm scene.pov $size +SR51 +ER101
+	render "$1" top.ppm scene.pov $size +SR1 +ER$3
+	render "$1" bottom.ppm scene.pov $size +SR$(($3 + 1)) +ER$4
 	check "$2, rows" "$compare" sum whole.ppm top.ppm bottom.ppm
+}
+
+threads_and_strips() {
+	threads_and_rows "$1" "$2" 50 101
 	render "$1" left.ppm scene.pov $size +SC1 +EC77
 	render "$1" right.ppm scene.pov $size +SC78 +EC150
 	check "$2, columns" "$compare" sum whole.ppm left.ppm right.ppm
@@ -63,17 +68,7 @@ random)
 		sphere { <0, 0.6, 1>, 0.5 pigment { rgb <0.9, 0.6, 0.5> } finish { subsurface { translucency 0.3 } } interior { ior 1.3 } }'
 	size="+W75 +H51"
 	scene "$lens" 'blur_samples 4, 16 variance 1/1000' "global_settings { subsurface { samples 4, 4 } } $random"
-	whole_and_parts() {
-		render "$ours" whole.ppm scene.pov $size
-		for n in 2 4; do
-			render "$ours" threads.ppm scene.pov $size +WT$n
-			check "random numbers$1, $n threads" "$compare" same whole.ppm threads.ppm
-		done
-		render "$ours" top.ppm scene.pov $size +SR1 +ER20
-		render "$ours" bottom.ppm scene.pov $size +SR21 +ER51
-		check "random numbers$1, rows" "$compare" sum whole.ppm top.ppm bottom.ppm
-	}
-	whole_and_parts ""
+	threads_and_rows "$ours" "random numbers" 20 51
 	cp whole.ppm seed0.ppm
 	# They are random: another seed is another grain, and so is each kind's absence.
 	sed 's/tilt_lens {/tilt_lens { seed 1/' scene.pov > seeded.pov
@@ -87,7 +82,7 @@ random)
 	done
 	# Without an opening, where the lens moves rays.
 	scene 'tilt_lens { focal_distance 8 distortion -0.05 }' '' "$random"
-	whole_and_parts " of a pinhole"
+	threads_and_rows "$ours" "random numbers of a pinhole" 20 51
 	;;
 stock)
 	scene perspective "aperture 0.8 focal_point <0, 1.42, 4.5> blur_samples 37 variance 1/4000 confidence 0.9" "$area"
