@@ -168,6 +168,23 @@ std::string Overlays(const Calibration& c, const ReportPictures& pictures)
 	return out;
 }
 
+/// Where the photographs say more of a number's uncertainty than its edges.
+std::string SigmasByPhotographs(const NamedCovariance& c)
+{
+	if (c.by_photographs.empty())
+		return "There are too few photographs to judge them by what they say against each other. ";
+	double most = 0;
+	size_t at = 0;
+	for (size_t i = 0; i < c.names.size(); ++i)
+		if (const double ratio = c.by_photographs[i] / std::sqrt(c.matrix[i * (c.names.size() + 1)]); ratio > most)
+		{
+			most = ratio;
+			at = i;
+		}
+	return fmt::format("A model's error is common to all edges of a photograph; so each photograph was left out in turn, and where the answers scatter more than the edges alone would let them, that scatter is the sigma: "
+		"here up to {:.1f} times the edges' own ({}). ", most, Escape(c.names[at]));
+}
+
 std::string Fine(const Calibration& c)
 {
 	std::string out = "<h2>Correlations, priors, and how to use the result</h2>\n";
@@ -176,6 +193,7 @@ std::string Fine(const Calibration& c)
 		: "<p>Correlations of the estimates (q is the inverse-focus vector; its x and y are the tilt). Above some 0.97 two numbers can hardly be told apart.</p>\n" + correlations;
 	out += "<h3>Priors</h3>\n" + PriorsTable(c);
 	out += "<h3>What the sigmas hold</h3>\n<p>They come from the covariance of the fit, rescaled by its residuals: the noise of the measured corners and edges, and as much of the model's error as scatters like noise. "
+		+ SigmasByPhotographs(c.solution.covariance) +
 		"They do not hold what is common to all photographs: an error of the square's side or of the pitch scales every length, and an aberration that the model lacks shifts its numbers without widening their sigmas. "
 		"The table of what leaving a photograph out changes, and the maps above, are the check.</p>\n";
 	const std::string& name = c.task.states.back().name;

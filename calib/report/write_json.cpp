@@ -240,6 +240,15 @@ Json CovarianceJson(const NamedCovariance& c)
 	return json;
 }
 
+/// Null: too few photographs.
+Json SigmasByPhotographs(const NamedCovariance& c)
+{
+	Json json;
+	for (size_t i = 0; i < c.by_photographs.size(); ++i)
+		json[c.names[i]] = c.by_photographs[i];
+	return json;
+}
+
 Json EffectsJson(const Calibration& c)
 {
 	Json list = Json::array();
@@ -291,7 +300,10 @@ std::string CalibrationJson(const Calibration& c)
 		json["correlations"][r.first][r.second] = r.value;
 	json["tilt_told_by"] = EvidenceJson(c);
 	if (!c.solution.covariance.names.empty())
+	{
 		json["covariance"] = CovarianceJson(c.solution.covariance);
+		json["sigma_by_photographs"] = SigmasByPhotographs(c.solution.covariance);
+	}
 	if (!c.photographs.empty())
 		json["photographs"] = PhotographsJson(c);
 	if (c.board_check.known)

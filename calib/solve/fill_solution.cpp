@@ -93,6 +93,29 @@ void FillSolution(const Task& task, const Geometry& g, const BlurFit& fit, const
 	out.focal_length = out.states[0].focal_length;
 }
 
+void WidenSigmas(const Solution& by_photographs, Solution& out)
+{
+	const auto widen = [](const Estimate& other, Estimate& own) { own.sigma = std::max(own.sigma, other.sigma); };
+	for (Estimate Solution::*number : { &Solution::w_mm, &Solution::aperture_diameter, &Solution::focus_distance, &Solution::focal_length, &Solution::psf_floor_px,
+			&Solution::psf_floor_squared, &Solution::field_curvature, &Solution::tangential_curvature, &Solution::sagittal_curvature })
+		widen(by_photographs.*number, out.*number);
+	for (size_t s = 0; s < out.states.size(); ++s)
+	{
+		const StateLens& other = by_photographs.states[s];
+		StateLens& own = out.states[s];
+		for (Estimate StateLens::*number : { &StateLens::lens_tilt, &StateLens::focal_plane_tilt, &StateLens::tilt_direction, &StateLens::focus_distance, &StateLens::focal_length })
+			widen(other.*number, own.*number);
+		own.q_sigma = { std::max(own.q_sigma.x, other.q_sigma.x), std::max(own.q_sigma.y, other.q_sigma.y), std::max(own.q_sigma.z, other.q_sigma.z) };
+	}
+	const NamedCovariance& c = by_photographs.covariance;
+	for (const std::string& name : out.covariance.names)
+	{
+		const auto at = std::find(c.names.begin(), c.names.end(), name) - c.names.begin();
+		const size_t n = c.names.size();
+		out.covariance.by_photographs.push_back(size_t(at) < n ? std::sqrt(c.matrix[size_t(at) * (n + 1)]) : 0);
+	}
+}
+
 void RefuseUndetermined(const Task& task, const Solution& s)
 {
 	if (!(s.aperture_diameter.sigma < 0.1 * s.aperture_diameter.value) || !(s.states[0].q_sigma.z < 0.05 * std::abs(s.states[0].q.z)))

@@ -13,6 +13,9 @@ namespace tiltcal
 /// The numbers that people read, of a fit's unknowns; w is `geometry`'s.
 void FillSolution(const Task& task, const Geometry& geometry, const BlurFit& fit, const Unknowns& x, const LensCovariance& covariance, Solution& out);
 
+/// Every sigma becomes the larger of its own and the one by photographs, and NamedCovariance receives those.
+void WidenSigmas(const Solution& by_photographs, Solution& out);
+
 /// Throws Refused where aperture, focus or a tilt are not determined, saying what to photograph.
 void RefuseUndetermined(const Task& task, const Solution& solution);
 

@@ -4,6 +4,7 @@
 
 #include "model/lens_model.h"
 #include <tiltcal/photo.h>
+#include "solve/by_photographs.h"
 #include "solve/edge_cost.h"
 #include "solve/prior_cost.h"
 #include "solve/solve_geometry.h"
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace tiltcal
 {
@@ -61,13 +63,21 @@ ceres::CostFunction* CostOf(const JointFit& fit, const Edge& e, const Vec3<doubl
 	return NewEdgeCost(edge, SoftDiameter(e.blur), weights);
 }
 
-void Build(const JointFit& fit, Geometry& g, Unknowns& x, ceres::Problem& problem)
+/// What belongs to each photograph, or, with shared poses, to all photographs of one pose; by group and photograph.
+using Photographs = std::map<std::pair<size_t, size_t>, PhotographBlocks>;
+
+Photographs Build(const JointFit& fit, Geometry& g, Unknowns& x, ceres::Problem& problem)
 {
+	Photographs photographs;
 	ForEachEdge(fit.task, [&](size_t s, size_t p, const Edge& e)
 	{
+		const size_t group = g.shared_poses ? 0 : s;
+		PhotographBlocks& own = photographs[{ group, p }];
+		own.pose = PoseOf(g, s, p).data();
+		own.group = group;
 		ceres::CostFunction* cost = CostOf(fit, e, g.states[s].lens_normal);
 		// A block of n standard normal residuals has the norm sqrt(n).
-		problem.AddResidualBlock(cost, new ceres::HuberLoss(2.5 * std::sqrt(double(cost->num_residuals()))), Pointers(BlocksOf(g, x, s, p)));
+		own.residuals.push_back(problem.AddResidualBlock(cost, new ceres::HuberLoss(2.5 * std::sqrt(double(cost->num_residuals()))), Pointers(BlocksOf(g, x, s, p))));
 	});
 	if (!fit.geometry_alone)
 		AddPriors(fit.task.priors, fit.model, { &g.w_px, fit.task.pitch_mm, &x.d, &x.power, x.state[0].data() }, problem);
@@ -80,13 +90,14 @@ void Build(const JointFit& fit, Geometry& g, Unknowns& x, ceres::Problem& proble
 	if (!fit.geometry_alone || !g.shared_poses)
 		problem.SetParameterBlockConstant(&g.pupil_magnification);
 	if (!fit.geometry_alone)
-		return;
+		return photographs;
 	for (double* block : { &x.d, &x.floor_squared, &x.power, x.curvature.data() })
 		problem.SetParameterBlockConstant(block);
 	problem.SetParameterBlockConstant(x.state[0].data());
 	// Of a state's numbers the tilt alone is seen: q_z hardly moves the lens normal.
 	for (size_t s = 1; s < x.state.size(); ++s)
 		problem.SetManifold(x.state[s].data(), new ceres::SubsetManifold(3, { 2 }));
+	return photographs;
 }
 
 /// Poses that are shared stand in every state, from its own lens centre.
@@ -218,14 +229,16 @@ bool JointFit::Minimise(Geometry& g, Unknowns& x) const
 	return solved;
 }
 
-std::optional<LensCovariance> JointFit::Covariance(Geometry& g, Unknowns& x) const
+std::optional<JointCovariance> JointFit::Covariance(Geometry& g, Unknowns& x) const
 {
 	// Of the edges also where their brightness was fitted: what the model leaves out of a profile is common to all
 	// its bins, and would make the sigmas too small by the root of their number.
 	JointFit by_edges = *this;
 	by_edges.kind = Refinement::EDGES;
 	ceres::Problem problem;
-	Build(by_edges, g, x, problem);
+	std::vector<PhotographBlocks> photographs;
+	for (const auto& [place, blocks] : Build(by_edges, g, x, problem))
+		photographs.push_back(blocks);
 	BlockCovariance covariance(problem);
 	const std::vector<const double*> lens = LensBlocks(g, x);
 	const std::vector<SigmaOf> geometry = GeometryBlocks(g);
@@ -235,19 +248,30 @@ std::optional<LensCovariance> JointFit::Covariance(Geometry& g, Unknowns& x) con
 	double cost = 0;
 	problem.Evaluate(ceres::Problem::EvaluateOptions(), &cost, nullptr, nullptr, nullptr);
 	const double scale = 2 * cost / std::max(problem.NumResiduals() - problem.NumParameters(), 1);
-	Eigen::MatrixXd c = scale * covariance.Of(lens);
-	const int w = UnknownIndex::W;
-	g.w_px_sigma = std::sqrt(c(w, w));
-	c.row(w) *= task.pitch_mm;
-	c.col(w) *= task.pitch_mm;
+	const std::optional<CovarianceByPhotographs> jackknife = JackknifeOverPhotographs(problem, photographs);
+	const auto larger = [&](const std::vector<const double*>& block)
+	{
+		const Eigen::VectorXd a = scale * covariance.Of(block).diagonal();
+		return Eigen::VectorXd(jackknife ? a.cwiseMax(jackknife->Of(block).diagonal()) : a);
+	};
+	g.w_px_sigma = std::sqrt(larger({ &g.w_px })[0]);
 	for (const SigmaOf& wanted : geometry)
 	{
-		const Eigen::MatrixXd own = scale * covariance.Of(wanted.block, wanted.block);
+		const Eigen::VectorXd own = larger({ wanted.block });
 		for (int i = 0; i < wanted.size; ++i)
-			wanted.sigma[i] = std::sqrt(std::max(own(i, i), 0.0));
+			wanted.sigma[i] = std::sqrt(std::max(own[i], 0.0));
 	}
 	SpreadPoses(g);
-	return CovarianceOfPlanes(model, x, g.w_px * task.pitch_mm, c);
+	const auto of_planes = [&](Eigen::MatrixXd c)
+	{
+		c.row(UnknownIndex::W) *= task.pitch_mm;
+		c.col(UnknownIndex::W) *= task.pitch_mm;
+		return CovarianceOfPlanes(model, x, g.w_px * task.pitch_mm, c);
+	};
+	JointCovariance both{ of_planes(scale * covariance.Of(lens)), std::nullopt };
+	if (jackknife)
+		both.by_photographs = of_planes(jackknife->Of(lens));
+	return both;
 }
 
 }

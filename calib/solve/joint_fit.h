@@ -24,6 +24,13 @@ struct ModelError
 	double offset = 0.1, blur = 0.3;
 };
 
+/// Of the edges, taken for independent; and by what the photographs say against each other (solve/by_photographs.h), where they can.
+struct JointCovariance
+{
+	LensCovariance by_edges;
+	std::optional<LensCovariance> by_photographs;
+};
+
 struct JointFit
 {
 	const Task& task;
@@ -41,8 +48,8 @@ struct JointFit
 	/// Robust fit of both in place. False: no convergence.
 	bool Minimise(Geometry& geometry, Unknowns& x) const;
 
-	/// As BlurFit's, but of everything free; also fills the sigmas of `geometry`. None: singular.
-	std::optional<LensCovariance> Covariance(Geometry& geometry, Unknowns& x) const;
+	/// As BlurFit's, but of everything free; also fills the sigmas of `geometry`, each with the larger of both. None: singular.
+	std::optional<JointCovariance> Covariance(Geometry& geometry, Unknowns& x) const;
 };
 
 }

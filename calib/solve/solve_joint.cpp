@@ -37,6 +37,16 @@ void SetNormals(const JointFit& fit, const Unknowns& x, Geometry& g)
 		g.states[s].lens_normal = tilt_lens::LensFromPlane(PlaneOfState(fit.model, &x.power, x.state[s].data(), w_mm), 1 / w_mm).normal;
 }
 
+void Fill(const Task& task, const Geometry& g, const BlurFit& fit, const Unknowns& x, const JointCovariance& covariance, Solution& out)
+{
+	FillSolution(task, g, fit, x, covariance.by_edges, out);
+	if (!covariance.by_photographs)
+		return;
+	Solution by_photographs;
+	FillSolution(task, g, fit, x, *covariance.by_photographs, by_photographs);
+	WidenSigmas(by_photographs, out);
+}
+
 }
 
 Unknowns UnknownsOf(const Solution& s)
@@ -65,7 +75,7 @@ bool RefineJointly(const Task& task, Refinement kind, Geometry& geometry, Soluti
 		SetNormals(fit, x, g);
 	}
 	fit.error = ErrorOf(fit.Residuals(g, x));
-	const std::optional<LensCovariance> covariance = fit.Covariance(g, x);
+	const std::optional<JointCovariance> covariance = fit.Covariance(g, x);
 	if (!covariance)
 		return false;
 	MeasureReprojection(task, g);
@@ -74,7 +84,7 @@ bool RefineJointly(const Task& task, Refinement kind, Geometry& geometry, Soluti
 	refined.held_out_px = solution.held_out_px;
 	refined.left_out = solution.left_out;
 	const std::vector<Observation> observations = Observe(task, g);
-	FillSolution(task, g, { solution.lens, observations, g.w_px * task.pitch_mm, fit.error.blur, task.priors }, x, *covariance, refined);
+	Fill(task, g, { solution.lens, observations, g.w_px * task.pitch_mm, fit.error.blur, task.priors }, x, *covariance, refined);
 	for (size_t s = 0; s < refined.states.size(); ++s)
 		refined.states[s].chosen_by_power = solution.states[s].chosen_by_power;
 	geometry = g;
@@ -95,12 +105,12 @@ GeometryAlone TiltFromGeometryAlone(const Task& task, const Geometry& geometry, 
 		if (!fit.Minimise(g, x))
 			return {};
 	}
-	const std::optional<LensCovariance> covariance = fit.Covariance(g, x);
+	const std::optional<JointCovariance> covariance = fit.Covariance(g, x);
 	if (!covariance)
 		return {};
 	Solution alone;
 	const std::vector<Observation> observations = Observe(task, g);
-	FillSolution(task, g, { solution.lens, observations, g.w_px * task.pitch_mm, fit.error.blur, task.priors }, x, *covariance, alone);
+	Fill(task, g, { solution.lens, observations, g.w_px * task.pitch_mm, fit.error.blur, task.priors }, x, *covariance, alone);
 	return { alone.states, { g.pupil_magnification, g.pupil_magnification_sigma } };
 }
 

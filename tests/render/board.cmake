@@ -1,4 +1,4 @@
-# The board, rendered through the calibrated camera at the pose of each photograph of one state: its corners must be
+# The board, rendered through the calibrated camera at the pose of two photographs of one state: its corners must be
 # where the photograph has them. A mirrored axis, a wrong handedness or half a pixel cannot pass.
 #
 #   cmake -DTILTCAL= -DPOVRAY= -DCOMPARE=<compare_corners> -DSCENES= -DCALIBRATION= -DSTATE= -DWORK= -P board.cmake
@@ -15,13 +15,12 @@ set(states_in_board_pov untilted plus5 minus5)
 
 file(REMOVE_RECURSE "${WORK}")
 file(MAKE_DIRECTORY "${WORK}")
-file(GLOB photos "${SCENES}/boxes/photos/target/${STATE}-*.jpg") # sorted, as tiltcal sorts its photographs
+file(GLOB photos "${SCENES}/boxes/photos/target/${STATE}-[14].jpg") # the first is the most blurred one
 list(FIND states_in_board_pov "${STATE}" number)
 set(renders "")
-set(photo_number 0)
 foreach(photo IN LISTS photos)
 	get_filename_component(name "${photo}" NAME_WE)
-	math(EXPR photo_number "${photo_number} + 1")
+	string(REGEX REPLACE "^.*-" "" photo_number "${name}") # as tiltcal numbers them
 	run(COMMAND "${POVRAY}" "+I${SCENES}/board/board.pov" "+L${SCENES}/board" "+L${CALIBRATION}" +W1800 +H1200
 		Declare=State=${number} Declare=Photo=${photo_number} Declare=TiltCal_Blur_Samples=${SAMPLES}
 		-D -A +WT1 +FE "+O${WORK}/${name}.exr")

@@ -18,7 +18,7 @@ struct Camera
 	bool in_world = false;
 	Vector point{0, 0, 0}, normal{0, 1, 0};
 
-	double aperture_diameter = 0.4; // at 8 units of distance: blur up to 20 of the picture's 240 pixels
+	double aperture_diameter = 0.4; // at 8 units of distance: blur up to 13 of the picture's 160 pixels
 	// Outside the block. Without an angle the sensor is the window right x up at image_distance.
 	double image_distance = 1.5;
 	double angle = 0; // degrees across; 0: none given
@@ -47,7 +47,7 @@ struct Camera
 	int samples = 1024;
 
 	const std::string& Truth() const { return truth_of.empty() ? name : truth_of; }
-	// Of 240 x 180 pixels; about as many frames of its own as the samples need.
+	// Of 160 x 120 pixels; about as many frames of its own as the samples need.
 	double cell_limit = 0.001; // oracle.cpp
 	int frames = 0; // 0: as below
 	int Frames() const { return frames > 0 ? frames : samples >= 1024 ? 1024 : 512; }

@@ -12,7 +12,7 @@
 
 #include <filesystem>
 
-constexpr int WIDTH = 240, HEIGHT = 180;
+constexpr int WIDTH = 160, HEIGHT = 120;
 constexpr double ASPECT = double(WIDTH) / HEIGHT;
 
 struct Lens

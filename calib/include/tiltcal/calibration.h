@@ -74,6 +74,7 @@ struct NamedCovariance
 {
 	std::vector<std::string> names;
 	std::vector<double> matrix;   ///< row by row
+	std::vector<double> by_photographs;   ///< sigmas from what photographs say against each other; empty: too few to judge
 };
 
 /// What a fit without one photograph finds for that photograph's state, and how well it predicts it.

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "solve/by_photographs.h"
+
+#include <ceres/crs_matrix.h>
+#include <ceres/manifold.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <set>
+
+namespace tiltcal
+{
+
+namespace
+{
+
+/// Of all that is known in some direction, the most that one photograph may say.
+const double MOST_LEVERAGE = 0.99;
+
+/// Sum of squares to second order about the present place: J^T J and J^T r of the blocks, in their tangent spaces.
+struct Quadratic
+{
+	Eigen::MatrixXd H;
+	Eigen::VectorXd g;
+};
+
+Quadratic Expand(ceres::Problem& problem, const std::vector<ceres::ResidualBlockId>& residuals, const std::vector<double*>& blocks)
+{
+	ceres::Problem::EvaluateOptions options;
+	options.residual_blocks = residuals;
+	options.parameter_blocks = blocks;
+	std::vector<double> r;
+	ceres::CRSMatrix J;
+	problem.Evaluate(options, nullptr, &r, nullptr, &J);
+	Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(J.num_rows, J.num_cols);
+	for (int row = 0; row < J.num_rows; ++row)
+		for (int k = J.rows[size_t(row)]; k < J.rows[size_t(row) + 1]; ++k)
+			dense(row, J.cols[size_t(k)]) = J.values[size_t(k)];
+	return { dense.transpose() * dense, dense.transpose() * Eigen::Map<const Eigen::VectorXd>(r.data(), Eigen::Index(r.size())) };
+}
+
+/// Without the last unknowns, which follow the others.
+Quadratic Reduced(const Quadratic& q, int kept)
+{
+	const auto own = Eigen::Index(q.g.size()) - kept;
+	if (own == 0)
+		return q;
+	const Eigen::LDLT<Eigen::MatrixXd> solve(q.H.bottomRightCorner(own, own));
+	const Eigen::MatrixXd across = q.H.topRightCorner(kept, own);
+	return { q.H.topLeftCorner(kept, kept) - across * solve.solve(across.transpose()), q.g.head(kept) - across * solve.solve(q.g.tail(own)) };
+}
+
+/// Free blocks that are no photograph's pose, in the order in which residuals name them: Ceres's own order is that of their addresses.
+std::vector<double*> SharedBlocks(const ceres::Problem& problem, const std::vector<ceres::ResidualBlockId>& residuals, const std::vector<PhotographBlocks>& photographs)
+{
+	std::set<const double*> done;
+	for (const PhotographBlocks& p : photographs)
+		done.insert(p.pose);
+	std::vector<double*> shared, blocks;
+	for (ceres::ResidualBlockId r : residuals)
+	{
+		problem.GetParameterBlocksForResidualBlock(r, &blocks);
+		for (double* block : blocks)
+			if (!problem.IsParameterBlockConstant(block) && done.insert(block).second)
+				shared.push_back(block);
+	}
+	return shared;
+}
+
+/// Those that are no photograph's.
+std::vector<ceres::ResidualBlockId> Others(const std::vector<ceres::ResidualBlockId>& residuals, const std::vector<PhotographBlocks>& photographs)
+{
+	std::set<ceres::ResidualBlockId> taken;
+	for (const PhotographBlocks& p : photographs)
+		taken.insert(p.residuals.begin(), p.residuals.end());
+	std::vector<ceres::ResidualBlockId> others;
+	for (ceres::ResidualBlockId r : residuals)
+		if (!taken.count(r))
+			others.push_back(r);
+	return others;
+}
+
+/// From tangent spaces to the blocks' own numbers, held ones 0.
+Eigen::MatrixXd FromTangent(const ceres::Problem& problem, const std::vector<double*>& blocks)
+{
+	int rows = 0, columns = 0;
+	for (const double* b : blocks)
+	{
+		rows += problem.ParameterBlockSize(b);
+		columns += problem.ParameterBlockTangentSize(b);
+	}
+	Eigen::MatrixXd all = Eigen::MatrixXd::Zero(rows, columns);
+	rows = columns = 0;
+	for (const double* b : blocks)
+	{
+		const int size = problem.ParameterBlockSize(b), tangent = problem.ParameterBlockTangentSize(b);
+		Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> J = Eigen::MatrixXd::Identity(size, tangent);
+		if (const ceres::Manifold* manifold = problem.GetManifold(b))
+			manifold->PlusJacobian(b, J.data());
+		all.block(rows, columns, size, tangent) = J;
+		rows += size;
+		columns += tangent;
+	}
+	return all;
+}
+
+/// Of the steps that leaving out each photograph makes. `total`: all photographs and what else is known.
+std::optional<Eigen::MatrixXd> Jackknife(const std::vector<Quadratic>& each, const Quadratic& total, const std::vector<PhotographBlocks>& photographs)
+{
+	const Eigen::LLT<Eigen::MatrixXd> root(total.H);
+	if (root.info() != Eigen::Success)
+		return std::nullopt;
+	std::map<size_t, double> in_group;
+	for (const PhotographBlocks& p : photographs)
+		in_group[p.group] += 1;
+	const auto n = total.g.size();
+	Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, n);
+	for (size_t i = 0; i < each.size(); ++i)
+	{
+		// Whitened by `total`, so that an eigenvalue is the part of a direction's knowledge that this photograph brings.
+		const Eigen::MatrixXd half = root.matrixL().solve(each[i].H);
+		const Eigen::MatrixXd part = root.matrixL().solve(half.transpose());
+		const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(part);
+		if (!(eigen.eigenvalues().maxCoeff() < MOST_LEVERAGE))
+			return std::nullopt;
+		const Eigen::VectorXd r = root.matrixL().solve(each[i].g);
+		const Eigen::VectorXd step = eigen.eigenvectors() * ((eigen.eigenvectors().transpose() * r).array() / (1 - eigen.eigenvalues().array())).matrix();
+		sum += (1 - 1 / in_group[photographs[i].group]) * step * step.transpose();
+	}
+	return Eigen::MatrixXd(root.matrixU().solve(Eigen::MatrixXd(root.matrixU().solve(sum).transpose())));
+}
+
+}
+
+CovarianceByPhotographs::CovarianceByPhotographs(const ceres::Problem& of, const std::vector<double*>& shared, Eigen::MatrixXd of_shared) : problem(of), c(std::move(of_shared))
+{
+	int at = 0;
+	for (const double* b : shared)
+	{
+		first[b] = at;
+		at += problem.ParameterBlockSize(b);
+	}
+}
+
+Eigen::MatrixXd CovarianceByPhotographs::Of(const std::vector<const double*>& blocks) const
+{
+	std::vector<int> at;
+	for (const double* b : blocks)
+		for (int i = 0; i < problem.ParameterBlockSize(b); ++i)
+			at.push_back(first.count(b) ? first.at(b) + i : -1);
+	const auto n = Eigen::Index(at.size());
+	Eigen::MatrixXd picked = Eigen::MatrixXd::Zero(n, n);
+	for (Eigen::Index i = 0; i < n; ++i)
+		for (Eigen::Index j = 0; j < n; ++j)
+			if (at[size_t(i)] >= 0 && at[size_t(j)] >= 0)
+				picked(i, j) = c(at[size_t(i)], at[size_t(j)]);
+	return picked;
+}
+
+std::optional<CovarianceByPhotographs> JackknifeOverPhotographs(ceres::Problem& problem, const std::vector<PhotographBlocks>& photographs)
+{
+	std::vector<ceres::ResidualBlockId> residuals;
+	problem.GetResidualBlocks(&residuals);
+	const std::vector<double*> shared = SharedBlocks(problem, residuals, photographs);
+	int size = 0;
+	for (const double* b : shared)
+		size += problem.ParameterBlockTangentSize(b);
+	Quadratic total{ Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size) };
+	// Priors.
+	if (const std::vector<ceres::ResidualBlockId> others = Others(residuals, photographs); !others.empty())
+		total = Expand(problem, others, shared);
+	std::vector<Quadratic> each;
+	for (const PhotographBlocks& p : photographs)
+	{
+		std::vector<double*> blocks = shared;
+		if (!problem.IsParameterBlockConstant(p.pose))
+			blocks.push_back(p.pose);
+		each.push_back(Reduced(Expand(problem, p.residuals, blocks), size));
+		total.H += each.back().H;
+	}
+	const std::optional<Eigen::MatrixXd> tangent = Jackknife(each, total, photographs);
+	if (!tangent)
+		return std::nullopt;
+	const Eigen::MatrixXd out = FromTangent(problem, shared);
+	return CovarianceByPhotographs(problem, shared, out * *tangent * out.transpose());
+}
+
+}
