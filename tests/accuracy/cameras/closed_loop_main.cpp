@@ -2,15 +2,15 @@
 //
 // closed_loop: cameras that nobody tuned for, light as cameras give it, and the calibrator's answers in their own sigmas.
 
-#include "closed_loop.h"
+#include "closed_loop_page.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <cmath>
 #include <cstdio>
+#include <exception>
 #include <filesystem>
-#include <map>
 
 namespace
 {
@@ -21,8 +21,23 @@ struct Options
 {
 	std::vector<std::string> only, lights{ "snr200" };
 	int seeds = 1, random = 0, first = 0;
-	std::string work = "closed-loop";
-	bool short_lines = false;
+	std::string work = "closed-loop", out;
+	bool table = false;
+	double least = 0, most = HUGE_VAL;
+
+	std::string Command() const
+	{
+		std::string words = "closed_loop";
+		if (table)
+			words += " --table";
+		for (const std::string& name : only)
+			words += " --only '" + name + "'";
+		if (random > 0)
+			words += fmt::format(" --random {} --first {}", random, first);
+		for (const std::string& light : lights)
+			words += " --light " + light;
+		return seeds == 1 ? words : words + fmt::format(" --seeds {}", seeds);
+	}
 };
 
 void Print(const Camera& camera, const Light& light, const Answer& a)
@@ -42,9 +57,7 @@ void Print(const Camera& camera, const Light& light, const Answer& a)
 		std::printf("    %s: %s\n", tiltcal::NameOf(remark.grade), remark.text.c_str());
 }
 
-struct Tally { int inside = 0, all = 0; double squares = 0, sum = 0; };
-
-void Run(const Options& o, const Camera& camera, unsigned pose_seed, std::map<std::string, Tally>& tally)
+void Run(const Options& o, const Camera& camera, unsigned pose_seed, std::vector<Result>& results)
 {
 	Negatives negatives;
 	try
@@ -63,39 +76,45 @@ void Run(const Options& o, const Camera& camera, unsigned pose_seed, std::map<st
 			const Answer a = CloseTheLoop(negatives, light, unsigned(k + 1), o.work);
 			Print(negatives.camera, light, a);
 			std::fflush(stdout);
-			for (const Deviation& d : a.deviations)
-			{
-				Tally& t = tally[d.name.substr(0, d.name.rfind(' ') == std::string::npos ? d.name.size() : d.name.rfind(' '))];
-				t.inside += std::abs(d.InSigmas()) < 2;
-				t.squares += std::min(100.0, d.InSigmas() * d.InSigmas());
-				t.sum += d.InSigmas();
-				++t.all;
-			}
+			results.push_back({ negatives.camera, name, a });
+			if (!o.out.empty())
+				WritePage(o.out, o.Command(), results); // whole after every camera: this takes long
 		}
 }
 
 }
 
 int main(int argc, char** argv)
+try
 {
 	Options o;
 	CLI::App app{ "Simulated cameras, calibrated and held against the truth" };
+	app.add_flag("--table", o.table, "All cameras of the table; taken where nothing else is asked for");
 	app.add_option("--only", o.only, "Cameras of the table whose names begin so");
 	app.add_option("--light", o.lights, "Kinds of light");
 	app.add_option("--seeds", o.seeds, "Draws of the noise");
-	app.add_option("--random", o.random, "So many random cameras instead of the table");
+	app.add_option("--random", o.random, "So many random cameras too");
 	app.add_option("--first", o.first, "The first of them");
 	app.add_option("--work", o.work, "Folder for the photographs");
+	app.add_option("--out", o.out, "Page with the results, Markdown");
+	app.add_option("--least", o.least, "Exit code 1 when a smaller share of the numbers is inside 2 sigma");
+	app.add_option("--most", o.most, "Exit code 1 when a number is further off, in sigmas");
 	CLI11_PARSE(app, argc, argv);
-	std::map<std::string, Tally> tally;
-	if (o.random > 0)
-		for (int k = 0; k < o.random; ++k)
-			Run(o, RandomCamera(unsigned(o.first + k)), unsigned(o.first + k), tally);
-	else
-		for (const Camera& camera : AllCameras())
-			if (o.only.empty() || std::any_of(o.only.begin(), o.only.end(), [&](const std::string& n) { return camera.name.rfind(n, 0) == 0; }))
-				Run(o, camera, 1, tally);
-	for (const auto& [name, t] : tally)
-		std::printf("%-16s inside 2 sigma %4d of %4d, rms %.2f, mean %+.2f\n", name.c_str(), t.inside, t.all, std::sqrt(t.squares / t.all), t.sum / t.all);
-	return 0;
+	std::vector<Result> results;
+	const bool nothing_asked = o.only.empty() && o.random == 0;
+	for (const Camera& camera : AllCameras())
+		if (o.table || nothing_asked || std::any_of(o.only.begin(), o.only.end(), [&](const std::string& n) { return camera.name.rfind(n, 0) == 0; }))
+			Run(o, camera, 1, results);
+	for (int k = 0; k < o.random; ++k)
+		Run(o, RandomCamera(unsigned(o.first + k)), unsigned(o.first + k), results);
+	for (const auto& [name, t] : CoverageByKind(results))
+		std::printf("%-16s inside 2 sigma %4d of %4d, rms %.2f, mean %+.2f\n", name.c_str(), t.inside, t.all, t.rms, t.mean);
+	const Coverage all = CoverageOfAll(results);
+	std::printf("%-16s inside 2 sigma %4d of %4d, %.1f %%, the worst %.1f sigma\n", "all", all.inside, all.all, 100 * all.Share(), all.worst);
+	return all.all > 0 && all.Share() >= o.least && all.worst <= o.most ? 0 : 1;
+}
+catch (const std::exception& e)
+{
+	std::fprintf(stderr, "closed_loop: %s\n", e.what());
+	return 2;
 }

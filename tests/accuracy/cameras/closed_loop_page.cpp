@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "closed_loop_page.h"
+
+#include "base/files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace cameras
+{
+
+namespace
+{
+
+/// "tilt along tilted1" is of the kind "tilt along".
+std::string KindOf(const std::string& name)
+{
+	const size_t last = name.rfind(' ');
+	return last == std::string::npos ? name : name.substr(0, last);
+}
+
+void Add(const Deviation& d, Coverage& c)
+{
+	const double z = d.InSigmas();
+	c.inside += std::abs(z) < 2;
+	c.rms += std::min(100.0, z * z);
+	c.mean += z;
+	c.worst = std::max(c.worst, std::abs(z));
+	++c.all;
+}
+
+void Finish(Coverage& c)
+{
+	c.rms = c.all ? std::sqrt(c.rms / c.all) : 0;
+	c.mean = c.all ? c.mean / c.all : 0;
+}
+
+std::string Row(const std::string& name, const Coverage& c)
+{
+	return fmt::format("| {} | {} of {} | {:.0f} % | {:.2f} | {:+.2f} | {:.1f} |\n", name, c.inside, c.all, 100 * c.Share(), c.rms, c.mean, c.worst);
+}
+
+std::string RowOf(const Result& r)
+{
+	const std::string name = fmt::format("| {} | {} | ", r.camera.name, r.light);
+	if (!r.answer.refusal.empty())
+		return name + "refused | | | | " + r.answer.refusal + " |\n";
+	const tiltcal::Calibration& c = r.answer.calibration;
+	Coverage of_it;
+	const Deviation* worst = nullptr;
+	for (const Deviation& d : r.answer.deviations)
+	{
+		Add(d, of_it);
+		if (!worst || std::abs(d.InSigmas()) > std::abs(worst->InSigmas()))
+			worst = &d;
+	}
+	return name + fmt::format("{}, {} | {:.4f} | {:.3f} | {} of {} | {} {:+.1f} |\n", tiltcal::NameOf(c.verdict.grade), tiltcal::NameOf(c.solution.model), r.answer.tilt_error, c.geometry.rms,
+		of_it.inside, of_it.all, worst ? worst->name : "", worst ? worst->InSigmas() : 0);
+}
+
+}
+
+std::vector<std::pair<std::string, Coverage>> CoverageByKind(const std::vector<Result>& results)
+{
+	std::map<std::string, Coverage> kinds;
+	for (const Result& r : results)
+		for (const Deviation& d : r.answer.deviations)
+			Add(d, kinds[KindOf(d.name)]);
+	for (auto& [kind, c] : kinds)
+		Finish(c);
+	return { kinds.begin(), kinds.end() };
+}
+
+Coverage CoverageOfAll(const std::vector<Result>& results)
+{
+	Coverage all;
+	for (const Result& r : results)
+		for (const Deviation& d : r.answer.deviations)
+			Add(d, all);
+	Finish(all);
+	return all;
+}
+
+void WritePage(const std::string& file, const std::string& command, const std::vector<Result>& results)
+{
+	std::string page = "# Simulated cameras, calibrated and held against the truth\n\nBy `" + command + "`: exact thin-lens photographs, developed as the light's name says, measured and calibrated. "
+		"Deviations are in the calibrator's own sigmas; the truth is the simulation's.\n\n"
+		"| number | inside 2 σ | | RMS, σ | mean, σ | worst, σ |\n|---|---|---|---|---|---|\n";
+	for (const auto& [kind, c] : CoverageByKind(results))
+		page += Row(kind, c);
+	page += Row("**all**", CoverageOfAll(results));
+	page += "\n| camera | light | verdict, model | tilt error, degrees | corners, px RMS | inside 2 σ | worst, σ |\n|---|---|---|---|---|---|---|\n";
+	for (const Result& r : results)
+		page += RowOf(r);
+	tiltcal::WriteText(file, page);
+}
+
+}
