@@ -7,7 +7,7 @@
 // v(n) the variance of their mean m(n), the expected square of m(n/2) - m(n) is
 // v(n/2) - v(n), without assuming that samples are independent. Fitting v(n) ~ n^-a
 // to the squares of successive changes, summed over many pixels, gives a and v(n).
-// (s^2/n, the rule for independent samples, is two to four times too much here.)
+// (s^2/n, the rule for independent samples, is too much here: nets are better than that.)
 
 #ifndef TILT_LENS_CONVERGENCE_H
 #define TILT_LENS_CONVERGENCE_H

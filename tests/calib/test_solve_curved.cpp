@@ -68,7 +68,7 @@ TEST(ChooseModel, CurvedWhereThereIsABowl)
 	ASSERT_TRUE(c.compared);
 	EXPECT_EQ(c.compared->plane.model, Model::PLANE);
 	EXPECT_LT(c.compared->curved.held_out_px, c.compared->plane.held_out_px);
-	// An edge's noise is all that is left to predict.
+	// An edge's noise is all that is left to predict; of more than 100 edges it is known to 7 %, and this is two sigma of that.
 	EXPECT_NEAR(c.compared->curved.held_out_px, 0.06, 0.01);
 }
 
