@@ -11,11 +11,11 @@ namespace tiltcal
 namespace
 {
 
-/// Points of the disc that holds the exit pupil: a square lattice, a tenth wider than the paraxial pupil, for the real one wanders.
-std::vector<Vec3<double>> PointsOfExitPupil(const Paraxial& p, int across)
+/// Points of the disc that holds the exit pupil: a square lattice.
+std::vector<Vec3<double>> PointsOfExitPupil(const Paraxial& p, int across, double reach)
 {
 	std::vector<Vec3<double>> points;
-	const double radius = 1.1 * p.entrance_radius * p.pupil_magnification;
+	const double radius = reach * p.entrance_radius * p.pupil_magnification;
 	for (int i = 0; i < across; ++i)
 		for (int j = 0; j < across; ++j)
 		{
@@ -30,7 +30,7 @@ std::vector<Vec3<double>> PointsOfExitPupil(const Paraxial& p, int across)
 
 std::vector<TracedRay> TraceBundle(const Prescription& lens, const Paraxial& p, const Sensor& sensor, const std::vector<GlassState>& states, const BundleSize& size)
 {
-	const std::vector<Vec3<double>> points = PointsOfExitPupil(p, size.across);
+	const std::vector<Vec3<double>> points = PointsOfExitPupil(p, size.across, size.reach);
 	std::vector<TracedRay> rays;
 	for (size_t s = 0; s < states.size(); ++s)
 	{

@@ -25,6 +25,7 @@ struct BundleSize
 {
 	int columns = 13, rows = 9;            ///< of pixels, to the very corners
 	int across = 15;                       ///< points across the exit pupil
+	double reach = 1.1;                    ///< how far from the axis these go, in paraxial radii of the exit pupil: the real one wanders
 	Rims rims = Rims::CUT;
 };
 

@@ -100,9 +100,15 @@ Fate TraceToSensor(const Prescription& lens, Ray<T>& ray, Rims rims = Rims::CUT)
 	return Fate::PASSED;
 }
 
-/// From the sensor to the scene: `ray` comes out before the first surface.
-template<typename T>
-Fate TraceToScene(const Prescription& lens, Ray<T>& ray, Rims rims = Rims::CUT)
+struct NotWatched
+{
+	template<typename T>
+	void operator()(size_t, const Vec3<T>&) const {}
+};
+
+/// From the sensor to the scene: `ray` comes out before the first surface. `watch` is told where it passes each surface.
+template<typename T, typename Watch = NotWatched>
+Fate TraceToScene(const Prescription& lens, Ray<T>& ray, Rims rims = Rims::CUT, const Watch& watch = {})
 {
 	T z(-lens.Length());
 	for (size_t k = lens.surfaces.size(); k-- > 0;)
@@ -110,6 +116,7 @@ Fate TraceToScene(const Prescription& lens, Ray<T>& ray, Rims rims = Rims::CUT)
 		const Fate fate = PassSurface(lens.surfaces[k], z, lens.surfaces[k].index, lens.IndexBefore(k), rims, ray);
 		if (fate != Fate::PASSED)
 			return fate;
+		watch(k, ray.point);
 		if (k > 0)
 			z = z + T(lens.surfaces[k - 1].distance);
 	}
