@@ -262,14 +262,11 @@ inline T AberrationDeterminant(const Aberrations<T>& a, const PupilRay<T>& ray)
 	return SolveFour(J, none);
 }
 
-/// The inverse of Aberrate: S0, b0 of S, b, by Newton's method, to rounding. False where it does not
-/// converge on the branch that holds the axis, on which the determinant is positive; `ray` is of no use
-/// then. With Jets the derivatives come out too, by the step that is taken from where the values are.
+/// One search of Unaberrate, by Newton's method from `ray` on, which is replaced.
 template<typename T>
-inline bool Unaberrate(const Aberrations<T>& a, const PupilRay<T>& aberrated, PupilRay<T>& ray)
+inline bool UnaberrateFrom(const Aberrations<T>& a, const PupilRay<T>& aberrated, PupilRay<T>& ray)
 {
 	using std::abs;
-	ray = aberrated;
 	bool last = false;
 	for(int i = 0; i < 30; i++)
 	{
@@ -290,6 +287,26 @@ inline bool Unaberrate(const Aberrations<T>& a, const PupilRay<T>& aberrated, Pu
 		last = error <= T(1e-9) * (T(1) + abs(ray.x / a.radius) + abs(ray.y / a.radius) + abs(ray.slope_x) + abs(ray.slope_y));
 	}
 	return false;
+}
+
+/// The inverse of Aberrate: S0, b0 of S, b, by Newton's method, to rounding; from the ray itself or, where that does not do, in steps
+/// from the axis. False where it does not converge on the branch that holds the axis, on which the determinant is positive; `ray`
+/// is of no use then. With Jets the derivatives come out too, by the step that is taken from where the values are.
+template<typename T>
+inline bool Unaberrate(const Aberrations<T>& a, const PupilRay<T>& aberrated, PupilRay<T>& ray)
+{
+	ray = aberrated;
+	if(UnaberrateFrom(a, aberrated, ray))
+		return true;
+	const int steps = 16;
+	ray = { T(0), T(0), T(0), T(0) };
+	for(int i = 1; i <= steps; i++)
+	{
+		const T share = T(double(i) / steps);
+		if(!UnaberrateFrom(a, { share * aberrated.x, share * aberrated.y, share * aberrated.slope_x, share * aberrated.slope_y }, ray))
+			return false;
+	}
+	return true;
 }
 
 /// The whole lens the other way: the image-side ray of the object-side one. False where the map folds.

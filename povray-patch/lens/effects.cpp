@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "lens/aberrated_lens.h"
 #include "lens/angles.h"
 #include "lens/check_effects.h"
 #include "lens/effects.h"
@@ -83,6 +84,8 @@ void CutByRim(const TiltLens& lens, LensRay& ray)
 		ray.weight = 0.0;
 }
 
+/// Aberrated: the ray no longer leaves the lens where it entered it.
+template<bool Aberrated>
 void CutByRims(const TiltLens& lens, LensRay& ray)
 {
 	for(int i = 0; i < lens.rim_count; i++)
@@ -91,7 +94,8 @@ void CutByRims(const TiltLens& lens, LensRay& ray)
 		const RimView<double> view = rim.distance < 0.0
 			? ViewOfRimBehind(lens.normal, lens.axis, ray.pixel, lens.image_distance, lens.pupil_magnification, rim.distance)
 			: ViewOfRim(lens.normal, ray.v, ray.kappa, rim.distance);
-		if(!PassesRim(view, ray.S, rim.radius))
+		const Vec3d S = Aberrated && rim.distance < 0.0 ? ray.point.x * lens.lens_x + ray.point.y * lens.lens_y : ray.S;
+		if(!PassesRim(view, S, rim.radius))
 		{
 			ray.weight = 0.0;
 			return;
@@ -115,7 +119,10 @@ bool FallsOff(const TiltLens& lens) { return lens.natural_vignetting; }
 bool HasRims(const TiltLens& lens) { return lens.rim_count > 0; }
 /// The usual case, for which no ray has to ask.
 bool HasOneRimBefore(const TiltLens& lens) { return lens.rim_count == 1 && !(lens.rims[0].distance < 0.0); }
-bool HasOtherRims(const TiltLens& lens) { return HasRims(lens) && !HasOneRimBefore(lens); }
+bool HasOtherRims(const TiltLens& lens) { return HasRims(lens) && !HasOneRimBefore(lens) && !lens.aberrates; }
+bool HasOtherRimsAberrated(const TiltLens& lens) { return HasRims(lens) && !HasOneRimBefore(lens) && lens.aberrates; }
+bool AberratesThird(const TiltLens& lens) { return lens.aberrates && !lens.aberrates_fifth; }
+bool AberratesFifth(const TiltLens& lens) { return lens.aberrates_fifth; }
 
 /// All there is, in the order in which a ray meets it. Those without a name are the lens itself;
 /// those without a step cost rays nothing here.
@@ -140,9 +147,12 @@ StepsInOrder[] =
 	{ NameOf(Word::FieldCurvature), &IsCurved, &FocusOnBowl, false },
 	{ NameOf(Word::AxialChromatic), &FocusesColours, &FocusColour, false },
 	{ "", &EveryLens, &LeaveLens, false },
+	{ NameOf(Word::Aberrations), &AberratesThird, &AberrateThirdOrder, true },
+	{ NameOf(Word::Aberrations), &AberratesFifth, &AberrateFifthOrder, true },
 	{ NameOf(Word::NaturalVignetting), &FallsOff, &DarkenNaturally, true },
 	{ NameOf(Word::OpticalVignetting), &HasOneRimBefore, &CutByRim, true },
-	{ NameOf(Word::OpticalVignetting), &HasOtherRims, &CutByRims, true }
+	{ NameOf(Word::OpticalVignetting), &HasOtherRims, &CutByRims<false>, true },
+	{ NameOf(Word::OpticalVignetting), &HasOtherRimsAberrated, &CutByRims<true>, true }
 };
 
 void CopyEffectWords(const LensSpec& spec, TiltLens& lens)
@@ -161,6 +171,8 @@ void CopyEffectWords(const LensSpec& spec, TiltLens& lens)
 	lens.rim_count = spec.rim_count;
 	std::copy(spec.lateral, spec.lateral + Wavelengths, lens.lateral);
 	std::copy(spec.axial, spec.axial + Wavelengths, lens.axial);
+	if(spec.aberrations_given)
+		TakeAberrations(spec, lens);
 }
 
 static_assert(sizeof(StepsInOrder) / sizeof(StepsInOrder[0]) <= MostLensSteps, "raise MostLensSteps");
@@ -192,6 +204,8 @@ void ResolveEffects(const LensSpec& spec, const CameraVectors& camera, TiltLens&
 	CheckFocus(lens, camera);
 	CheckRims(lens);
 	SettleSteps(lens);
+	if(lens.aberrates)
+		CheckAberrations(camera, lens);
 }
 
 static std::string Listed(const std::string& names, const std::string& name)
@@ -216,6 +230,7 @@ std::string IdleWords(const LensSpec& spec, const TiltLens& lens)
 		{ spec.blades.given, NameOf(Word::Blades) },
 		{ spec.bokeh, "bokeh" },
 		{ spec.axial_given && FocusesColours(lens), NameOf(Word::AxialChromatic) },
+		{ lens.aberrates && !AberratesPinholeRays(lens), NameOf(Word::Aberrations) },
 		{ spec.denoise, NameOf(Word::Denoise) },
 		{ spec.show_focus, NameOf(Word::ShowFocus) }
 	};

@@ -33,7 +33,7 @@ struct LensRay
 typedef void (*LensStep)(const TiltLens& lens, LensRay& ray);
 
 /// Upper bound of a lens's steps.
-const int MostLensSteps = 16;
+const int MostLensSteps = 20;
 
 }
 

@@ -8,6 +8,7 @@
 
 #include <string>
 
+#include "lens/aberrations.h"
 #include "lens/blades.h"
 #include "lens/distortion.h"
 #include "lens/lens_ray.h"
@@ -68,6 +69,9 @@ struct LensSpec
 	bool lateral_given = false, axial_given = false;
 	double lateral[Wavelengths] = {}, axial[Wavelengths] = {};
 	Given<double> pupil_magnification;
+	bool aberrations_given = false;
+	double aberrations[AberrationTerms] = {};   ///< in thousandths of the focal length
+	Given<double> aberrations_focal_length, aberrations_f_stop; ///< for which they hold
 	bool bokeh = false;                 ///< POV-Ray's word outside the block: the opening is the pigment's square
 
 	/// Let pixels learn from their neighbours.
@@ -120,6 +124,9 @@ struct TiltLens
 	int rim_count = 0;
 	double lateral[Wavelengths] = {}, axial[Wavelengths] = {};
 	double pupil_magnification = 1.0;
+	Aberrations<double> aberrations = {};   ///< in world units
+	bool aberrates = false, aberrates_fifth = false;
+	double reach = 1.0;                 ///< rays leave from points up to so many radii of the opening from its centre
 
 	// What follows from the effects (effects.cpp).
 	LensStep steps[MostLensSteps + 1] = {};     ///< of every ray, ended by NULL
@@ -131,7 +138,7 @@ struct TiltLens
 	/// Focused on a bowl, not on a plane.
 	bool Curves() const { return field_curvature != 0.0; }
 	/// Inverse focus distance of the direction v, for reports; the tracer has its own
-	/// copy without the question.
+	/// copy without the question. Without aberrations.
 	double Kappa(const Vec3d& v) const;
 
 	// For reports.

@@ -5,6 +5,7 @@
 #include <cstdarg>
 #include <cstdio>
 
+#include "lens/aberrated_lens.h"
 #include "lens/angles.h"
 #include "lens/effects.h"
 #include "lens/optics.h"
@@ -67,7 +68,9 @@ FocusCounts CountFocus(const TiltLens& lens, const CameraVectors& camera,
 		{
 			const bool seen = row_seen + x * seen_across > 0.0;
 			double kappa = row_kappa + x * across;
-			if((lens.distorts || lens.Curves()) && seen)
+			if(lens.aberrates && seen)
+				kappa = InverseFocusAlongLensAxis(lens, row + (double(x) / width) * camera.right);
+			else if((lens.distorts || lens.Curves()) && seen)
 			{
 				const Vec3d v = row + (double(x) / width) * camera.right;
 				kappa = lens.Kappa(!lens.distorts ? v :
@@ -114,7 +117,7 @@ void AppendPlane(std::string& text, const TiltLens& lens)
 	// The plane and its mirror normal are the same plane: say the angle below 90.
 	// Normalized, because the squares of a distant or near plane's q leave the numbers.
 	const Vec3d m = Normalized(q.z < 0.0 ? -1.0 * q : q);
-	if(lens.Curves())
+	if(lens.Curves() || lens.aberrates)
 		Append(text, "Bowl of Focus:   touches, on the lens axis, the\n");
 	Append(text, "Plane of Focus:  %.3f deg to the sensor", AngleFromAxis(m) * DegreesPerRadian);
 	if(qxy > 0.0)

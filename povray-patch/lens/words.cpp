@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstring>
 #include <vector>
 
 namespace tilt_lens
@@ -50,6 +49,8 @@ const WordRow Words[WordCount] =
 	  "red and blue in focus elsewhere than green" },
 	{ Word::PupilMagnification, "pupil_magnification", "", "M", &LensSpec::pupil_magnification, Range::Own, "–",
 	  "size of the exit pupil over that of the entrance pupil" },
+	{ Word::Aberrations, "aberrations", "", "{ … }", NULL, Range::Own, "f/1000",
+	  "what a real lens does beside the ideal one's picture" },
 	{ Word::Denoise, "denoise", "", "", NULL, Range::Own, "–",
 	  "lets pixels learn from their neighbours" },
 	{ Word::Seed, "seed", "", "N", &LensSpec::seed, Range::Own, "–",
@@ -59,6 +60,10 @@ const WordRow Words[WordCount] =
 	{ Word::ShowPlane, "show", "plane", "", NULL, Range::Own, "–",
 	  "paints the plane of focus over the scene" }
 };
+
+const char* const AberrationWords[ThirdOrderTerms + 1] =
+	{ "spherical", "coma", "astigmatism", "curvature", "distortion", "pupil", "fifth_order" };
+const char* const FifthOrderWord = AberrationWords[ThirdOrderTerms];
 
 std::string WordRow::Name() const
 {
@@ -84,7 +89,8 @@ const char* const WordsAround[] = {
 /// Words of options, where the word before them is left out.
 const struct { const char *option, *word; } Options[] = {
 	{ "natural", "vignetting" }, { "optical", "vignetting" }, { "lateral", "chromatic" }, { "axial", "chromatic" },
-	{ "rotation", "blades" }, { "curvature", "blades" }, { "focus", "show" } };
+	{ "rotation", "blades" }, { "curvature", "blades" }, { "focus", "show" }, { "spherical", "aberrations" }, { "coma", "aberrations" },
+	{ "astigmatism", "aberrations" }, { "pupil", "aberrations" }, { "fifth_order", "aberrations" } };
 
 /// Letters to leave out, add, change or swap with the next, to make one of the other.
 size_t Edits(const std::string& a, const std::string& b)
@@ -116,25 +122,66 @@ std::string Folded(const std::string& word)
 
 }
 
+namespace
+{
+
+/// Of the words that are offered, the one that was likely meant.
+class Nearest
+{
+	public:
+		std::string best;
+
+		explicit Nearest(const std::string& typed) : folded(Folded(typed)) {}
+
+		void Consider(const std::string& word)
+		{
+			const size_t edits = Edits(folded, word);
+			if(edits < least && 2 * edits < word.size())
+			{
+				least = edits;
+				best = word;
+			}
+		}
+	private:
+		std::string folded;
+		size_t least = 3;
+};
+
+/// What stands before an option.
+std::string BeforeOption(const std::string& word)
+{
+	return word + (word == NameOf(Word::Blades) ? " 5 " : word == NameOf(Word::Aberrations) ? " { " : " ");
+}
+
+}
+
 std::string WordLike(const std::string& typed)
 {
-	const std::string folded = Folded(typed);
-	std::string best;
-	size_t least = 3;
-	const auto consider = [&](const std::string& word)
-	{
-		const size_t edits = Edits(folded, word);
-		if(edits < least && 2 * edits < word.size())
-		{
-			least = edits;
-			best = word;
-		}
-	};
+	Nearest nearest(typed);
 	for(const WordRow& row : Words)
-		consider(row.word);
+		nearest.Consider(row.word);
 	for(const char* word : WordsAround)
-		consider(word);
-	return best;
+		nearest.Consider(word);
+	return nearest.best;
+}
+
+std::string AdviceOnAberrations(const std::string& typed)
+{
+	std::string list = RowOf(Word::FocalLength).Name() + ", " + RowOf(Word::FStop).Name();
+	Nearest nearest(typed);
+	nearest.Consider(NameOf(Word::FocalLength));
+	nearest.Consider(NameOf(Word::FStop));
+	for(const char* word : AberrationWords)
+	{
+		nearest.Consider(word);
+		list += ", " + std::string(word);
+	}
+	const std::string unknown = "Unknown word '" + typed + "' in aberrations";
+	if(!nearest.best.empty())
+		return unknown + "; did you mean '" + nearest.best + "'?";
+	if(FindWord(typed) != NULL)
+		return "'" + typed + "' is no word of aberrations; is their '}' missing before it?";
+	return unknown + "; the words are " + list + ".";
 }
 
 std::string AdviceOn(const std::string& typed)
@@ -148,7 +195,7 @@ std::string AdviceOn(const std::string& typed)
 		return belongs_around(typed);
 	for(const auto& o : Options)
 		if(typed == o.option)
-			return "'" + typed + "' follows the word " + o.word + ", as in '" + o.word + (std::strcmp(o.word, "blades") == 0 ? " 5 " : " ") + typed + "'.";
+			return "'" + typed + "' follows the word " + o.word + ", as in '" + BeforeOption(o.word) + typed + "'.";
 	const std::string like = WordLike(typed);
 	if(like.empty())
 		return "Unknown word '" + typed + "' in the tilt_lens block; the words are " + ListOfWords() + ".";

@@ -21,7 +21,7 @@ enum class Word
 	ImageDistance, FocalLength, Shift,
 	ApertureDiameter, FStop,
 	Distortion, FieldCurvature, Blades, NaturalVignetting, OpticalVignetting,
-	LateralChromatic, AxialChromatic, PupilMagnification,
+	LateralChromatic, AxialChromatic, PupilMagnification, Aberrations,
 	Denoise, Seed, ShowFocus, ShowPlane
 };
 const int WordCount = int(Word::ShowPlane) + 1;
@@ -61,6 +61,14 @@ const WordRow* FindWord(const std::string& word);
 
 /// All words, each once, with commas between.
 std::string ListOfWords();
+
+/// The words of the block `aberrations`: those of its terms, in their order, with the one for the
+/// fifth order last.
+extern const char* const AberrationWords[ThirdOrderTerms + 1];
+extern const char* const FifthOrderWord;
+
+/// What to do about a word that the block `aberrations` does not know.
+std::string AdviceOnAberrations(const std::string& typed);
 
 /// The word that was likely meant, empty where none is near: at most two letters left out,
 /// added, changed or swapped, and less than half of it.

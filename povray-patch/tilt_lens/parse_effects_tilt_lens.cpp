@@ -132,6 +132,69 @@ void Parser::Parse_Tilt_Lens_Chromatic(LensSpec& spec)
 		Error("tilt_lens: chromatic takes lateral, axial or both, in this order, each with a value for red and one for blue.");
 }
 
+/// aberrations { [focal_length F] [f_stop N] [spherical A] .. [fifth_order { A1, .., A10 }] }
+void Parser::Parse_Tilt_Lens_Aberrations(LensSpec& spec)
+{
+	bool known[tilt_lens::ThirdOrderTerms + 1] = { false };
+
+	Refuse_Tilt_Lens_Word_Twice(spec.aberrations_given, Word::Aberrations);
+	spec.aberrations_given = true;
+	Parse_Begin();
+	while (true)
+	{
+		Get_Token();
+		if (Token.Token_Id == RIGHT_CURLY_TOKEN)
+			break;
+		// spherical is one of POV-Ray's own words, the others are names like any other.
+		if ((Token.Token_Id != SPHERICAL_TOKEN) && (Token.Token_Id != IDENTIFIER_TOKEN) && (Token.Data == NULL))
+			Expectation_Error("'}' or one of the words of aberrations");
+		const std::string word(Token.Token_String);
+		Given<double> *number = (word == RowOf(Word::FocalLength).word) ? &spec.aberrations_focal_length :
+		                        (word == RowOf(Word::FStop).word) ? &spec.aberrations_f_stop : NULL;
+		if (number != NULL)
+		{
+			if (number->given)
+				Error("tilt_lens: %s of aberrations is given twice.", word.c_str());
+			*number = Parse_Float();
+			continue;
+		}
+		int i = 0;
+		while ((i <= tilt_lens::ThirdOrderTerms) && (word != tilt_lens::AberrationWords[i]))
+			i++;
+		if (i > tilt_lens::ThirdOrderTerms)
+			Error("tilt_lens: %s", tilt_lens::AdviceOnAberrations(word).c_str());
+		if (known[i])
+			Error("tilt_lens: %s of aberrations is given twice.", word.c_str());
+		known[i] = true;
+		if (i < tilt_lens::ThirdOrderTerms)
+			spec.aberrations[i] = Parse_Float();
+		else
+			Parse_Tilt_Lens_Fifth_Order(spec.aberrations + i);
+	}
+	Unget_Token();
+	Parse_End();
+}
+
+/// fifth_order { A1, .., A10 }: all of them, so that none stands for another.
+void Parser::Parse_Tilt_Lens_Fifth_Order(double *numbers)
+{
+	Parse_Begin();
+	for (int i = 0; i < tilt_lens::FifthOrderTerms; i++)
+	{
+		Get_Token();
+		Unget_Token();
+		if (Token.Token_Id == RIGHT_CURLY_TOKEN)
+			Error("tilt_lens: fifth_order takes %d numbers, but has %d.", tilt_lens::FifthOrderTerms, i);
+		numbers[i] = Parse_Float();
+		Parse_Comma();
+	}
+	Get_Token();
+	Unget_Token();
+	if (Token.Token_Id != RIGHT_CURLY_TOKEN)
+		Error("tilt_lens: fifth_order takes %d numbers, and has more.", tilt_lens::FifthOrderTerms);
+	Parse_End();
+}
+
 /// show focus, show plane
 void Parser::Parse_Tilt_Lens_Show(LensSpec& spec)
 {

@@ -129,6 +129,9 @@ void Parser::Parse_Tilt_Lens_Word(Camera& New)
 		case Word::LateralChromatic:
 			Parse_Tilt_Lens_Chromatic(spec);
 			break;
+		case Word::Aberrations:
+			Parse_Tilt_Lens_Aberrations(spec);
+			break;
 		case Word::Denoise:
 			spec.denoise = true;
 			break;

@@ -11,6 +11,8 @@
 #include "backend/scene/objects.h"
 #include "backend/shape/planes.h"
 #include "backend/tilt_lens/bokeh.h"
+#include "backend/tilt_lens/camera_vectors.h"
+#include "lens/aberrated_lens.h"
 #include "lens/optics.h"
 #include "lens/preview.h"
 #include "backend/tilt_lens/sample_sums.h"
@@ -87,7 +89,7 @@ static bool Box_Touches_Lens(const BBOX& box, const VECTOR location, const tilt_
 	for(int i = 0; i < 3; i++)
 	{
 		// Boxes are kept in single precision: leave room for their rounding.
-		const DBL reach = (sqrt(x[i] * x[i] + y[i] * y[i]) + fabs(location[i]) * 1e-6) * 1.001 + EPSILON;
+		const DBL reach = (lens.reach * sqrt(x[i] * x[i] + y[i] * y[i]) + fabs(location[i]) * 1e-6) * 1.001 + EPSILON;
 		const DBL low = box.Lower_Left[i], high = low + box.Lengths[i];
 		if((low - fabs(low) * 1e-6 > location[i] + reach) || (high + fabs(high) * 1e-6 < location[i] - reach))
 			return false;
@@ -113,7 +115,8 @@ bool TracePixel::InteriorTouchesTiltLens()
 		int inside = 0;
 		for(int corner = 0; corner < 4; corner++)
 		{
-			const Vec3d offset = ((corner & 1) ? 1.01 : -1.01) * lens.lens_x + ((corner & 2) ? 1.01 : -1.01) * lens.lens_y;
+			const DBL reach = 1.01 * lens.reach;
+		const Vec3d offset = ((corner & 1) ? reach : -reach) * lens.lens_x + ((corner & 2) ? reach : -reach) * lens.lens_y;
 			VECTOR point = { camera.Location[X] + offset.x, camera.Location[Y] + offset.y, camera.Location[Z] + offset.z };
 			inside += (*object)->Inside(point, threadData) ? 1 : 0;
 		}
@@ -289,7 +292,14 @@ void TracePixel::ShowTiltLens(Colour& colour, DBL x, DBL y, DBL width, DBL heigh
 		const Vec3d direction = { ray.Direction[X], ray.Direction[Y], ray.Direction[Z] };
 		const DBL slope = Dot(direction, lens.axis);
 
-		pixel.kappa = lens.Kappa(direction) / slope;
+		if(lens.aberrates)
+		{
+			const tilt_lens::CameraVectors vectors = Vectors_Of(camera);
+			const Vec3d v = lens.direction + ((x + 0.5) / width - 0.5) * vectors.right + (0.5 - (y + 0.5) / height) * vectors.up;
+			pixel.kappa = InverseFocusAlongLensAxis(lens, v) * Dot(direction, lens.normal) / slope;
+		}
+		else
+			pixel.kappa = lens.Kappa(direction) / slope;
 		pixel.inverse_depth = (distance < BOUND_HUGE) ? 1.0 / (distance * slope) : 0.0;
 		pixel.empty = false;
 	}
