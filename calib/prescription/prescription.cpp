@@ -13,6 +13,14 @@ double Prescription::Length() const
 	return length;
 }
 
+double Prescription::StopHeight() const
+{
+	double height = 0;
+	for (size_t k = 0; k < stop; ++k)
+		height -= surfaces[k].distance;
+	return height;
+}
+
 Prescription Prescription::Scaled(double factor) const
 {
 	Prescription scaled = *this;

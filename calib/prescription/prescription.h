@@ -28,6 +28,8 @@ struct Prescription
 	size_t stop = 0;
 
 	double IndexBefore(size_t surface) const { return surface ? surfaces[surface - 1].index : 1; }
+	/// Of the stop, as in trace.h.
+	double StopHeight() const;
 	double StopRadius() const { return surfaces[stop].clear_radius; }
 	/// From the first vertex to the last.
 	double Length() const;

@@ -5,6 +5,7 @@
 #include "base/files.h"
 #include "base/plain_text.h"
 #include "camera/camera_block.h"
+#include "lens/words.h"
 #include "model/projection.h"
 
 #include <fmt/format.h>
@@ -19,9 +20,6 @@ namespace
 
 using tilt_lens::AberrationTerms;
 using tilt_lens::ThirdOrderTerms;
-
-/// In the order of AberrationTerm (lens/aberrations.h).
-const char* const THIRD_ORDER_WORDS[ThirdOrderTerms] = { "spherical", "coma", "astigmatism", "curvature", "distortion", "pupil" };
 
 const double PER_MILLE = 1000;
 
@@ -62,7 +60,7 @@ std::string TermsText(const FittedLens& fit, int terms)
 	std::string out;
 	const double f = 1 / fit.lens.power;
 	for (int k = 0; k < terms && k < ThirdOrderTerms; ++k)
-		out += fmt::format("  {:<12}{:12.4f}\n", THIRD_ORDER_WORDS[k], PER_MILLE * fit.lens.aberrations.c[k] / f + 0.);
+		out += fmt::format("  {:<12}{:12.4f}\n", tilt_lens::AberrationWords[k], PER_MILLE * fit.lens.aberrations.c[k] / f + 0.);
 	if (terms > ThirdOrderTerms)
 		out += "  fifth order ";
 	for (int k = ThirdOrderTerms; k < terms; ++k)
@@ -85,17 +83,17 @@ std::string StatesText(const GlassCameras& made)
 
 }
 
-std::string AberrationWords(const FittedLens& fit, int terms)
+std::string LensWords(const FittedLens& fit, int terms)
 {
 	const double f = 1 / fit.lens.power;
 	std::string out = fmt::format("\t\tpupil_magnification {:.10g}\n\t\taberrations {{\n\t\t\tfocal_length {:.10g}  f_stop {:.10g}\n", fit.lens.pupil_magnification, f,
 		f / (2 * fit.lens.aberrations.radius));
 	const auto per_mille = [&](int k) { return PER_MILLE * fit.lens.aberrations.c[k] / f + 0.; };
 	for (int k = 0; k < ThirdOrderTerms; ++k)
-		out += fmt::format("\t\t\t{} {:.10g}\n", THIRD_ORDER_WORDS[k], per_mille(k));
+		out += fmt::format("\t\t\t{} {:.10g}\n", tilt_lens::AberrationWords[k], per_mille(k));
 	if (terms > ThirdOrderTerms)
 	{
-		out += "\t\t\tfifth_order {";
+		out += fmt::format("\t\t\t{} {{", tilt_lens::AberrationWords[ThirdOrderTerms]);
 		for (int k = ThirdOrderTerms; k < AberrationTerms; ++k)
 			out += fmt::format("{} {:.10g}", k > ThirdOrderTerms ? "," : "", per_mille(k));
 		out += " }\n";
@@ -108,7 +106,7 @@ std::string GlassInc(const GlassCameras& made, size_t s)
 	const StateCamera c = CameraOfGlass(made, s);
 	const std::string p = "TiltCal_" + c.state;
 	BlockLayout layout;
-	layout.lens_words = AberrationWords(made.Lens(), made.task.terms);
+	layout.lens_words = LensWords(made.Lens(), made.task.terms);
 	layout.rims_only_if = c.rims_mm.empty() ? "" : "TiltCal_Rim";
 	layout.place = fmt::format("\tlocation Location\n\tdirection {}_Image_Distance*z\n\tright {:.10g}*x\n\tup {:.10g}*y\n\tsky Sky\n\tlook_at Look_At\n", p,
 		c.width * c.pitch_mm, c.height * c.pitch_mm);

@@ -38,14 +38,6 @@ Prescription Gauss45()
 	return StoppedTo(printed.Scaled(45 / ParaxialOf(printed).focal_length), 2.8);
 }
 
-double StopHeight(const Prescription& lens)
-{
-	double z = 0;
-	for (size_t k = 0; k < lens.stop; ++k)
-		z -= lens.surfaces[k].distance;
-	return z;
-}
-
 // --- near the axis -----------------------------------------------------------------------------------------------------------
 
 TEST(Paraxial, ThickLensOfTheTextbook)
@@ -89,7 +81,7 @@ TEST(Paraxial, PhotographsTruth)
 	EXPECT_NEAR(2 * lens.StopRadius(), 11.07922888, digits);
 	EXPECT_NEAR(2 * p.entrance_radius * p.pupil_magnification, 17.19452116, digits);
 	EXPECT_NEAR(p.back_focus, 32.26419534, digits);
-	EXPECT_NEAR(first + StopHeight(lens), 49.2355578, digits);
+	EXPECT_NEAR(first + lens.StopHeight(), 49.2355578, digits);
 	EXPECT_NEAR(first + p.entrance_pupil, 46.49982043, digits);
 	EXPECT_NEAR(first + p.exit_pupil, 51.57353116, digits);
 	EXPECT_NEAR(first + p.front_principal, 43.56056052, digits);
@@ -102,7 +94,7 @@ TEST(Paraxial, PhotographsTruth)
 	// The least blur: which rays stand for the disc is theirs, to a hundredth of the move of 0.087 mm.
 	EXPECT_NEAR(FocusedBackDistance(lens, p, 618), 35.69306725, 0.001);
 	// Tilted about the stop: where the entrance pupil goes.
-	const GlassFrame frame(lens, { "plus5", 5, 0, 35.69306725, StopHeight(lens) });
+	const GlassFrame frame(lens, { "plus5", 5, 0, 35.69306725, lens.StopHeight() });
 	const Vec3<double> pupil = frame.OnAxis(p.entrance_pupil);
 	EXPECT_NEAR(pupil.y, 0.2384352224, digits);     // y up; truth.json's is down
 	EXPECT_NEAR(pupil.z - 46.49982043, 0.01041030663, digits);
