@@ -169,6 +169,33 @@ class Writer
 			}
 		}
 
+		// Words of the block, numbers with and without commas where there are several.
+		void Aberrations()
+		{
+			static const char* const words[] = { "focal_length", "f_stop", "spherical", "coma", "astigmatism", "curvature", "distortion", "pupil", "fifth_order" };
+			Say("aberrations");
+			Say("{");
+			for (int i = random.Below(6); i > 0; i--)
+			{
+				const int word = random.Below(9);
+				Say(words[word]);
+				if (word < 8)
+					Number(word < 2 ? 0.5 : -5, 5);
+				else
+				{
+					Say("{");
+					for (int k = 0, n = random.Chance(0.9) ? 10 : random.Below(13); k < n; k++)
+					{
+						if (k > 0 && !random.Chance(0.02))
+							Say(",");
+						Number(-3, 3);
+					}
+					Say("}");
+				}
+			}
+			Say("}");
+		}
+
 		void TiltLens()
 		{
 			Say("tilt_lens");
@@ -197,6 +224,8 @@ class Writer
 						LensWord(word);                     // field_curvature, shift, distortion, show
 				while (random.Chance(0.3))
 					Effect();
+				if (random.Chance(0.2))
+					Aberrations();
 				if (random.Chance(0.15))
 					Say("denoise");
 				if (random.Chance(0.1))

@@ -24,7 +24,7 @@ const char* const Strays[] = {
 	"{", "}", "{", "}", ",", "<", ">", "(", ")", "-", ";", "tilt_lens", "tilt_lens {}", "camera", "camera {", "focal_length", "focal_points",
 	"show", "show plane", "focus", "denoise", "seed", "shift", "distortion", "lens_tilt", "location", "look_at", "angle", "aperture", "sphere", "pigment",
 	"perspective", "orthographic", "fisheye", "normal", "Other", "NoCamera", "Vector", "42", "\"", "//", "/*", "\"text\"",
-	"#if (0)", "#end", "#declare", "#local A = 1;", "#undef Vector", "#macro M()", "blades", "bokeh", "vignetting", "natural", "optical", "chromatic", "lateral", "axial", "pupil_magnification", "rotation", "curvature", "default", "@", "\xff" };
+	"#if (0)", "#end", "#declare", "#local A = 1;", "#undef Vector", "#macro M()", "blades", "bokeh", "vignetting", "natural", "optical", "chromatic", "lateral", "axial", "pupil_magnification", "aberrations", "aberrations {", "coma", "fifth_order", "rotation", "curvature", "default", "@", "\xff" };
 
 const char* const OtherTypes[] = {
 	"perspective", "orthographic", "fisheye", "ultra_wide_angle", "omnimax", "panoramic", "cylinder 1", "cylinder 3", "cylinder 9",

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 //
 // The map of a real lens: what it must be by construction, and the lens of a textbook, by Seidel's sums and by rays traced
-// through its spheres (sphere_tracer.h).
+// through its spheres (support/sphere_tracer.h).
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,7 @@
 
 #include "lens/aberrations.h"
 #include "lens/optics.h"
-#include "sphere_tracer.h"
+#include "support/sphere_tracer.h"
 
 using namespace tilt_lens;
 using sphere_tracer::Real;

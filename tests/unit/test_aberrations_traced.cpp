@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 //
 // The numbers of a real lens against two oracles that share no code with them or with each other: Seidel's sums, and rays traced through
-// the lens's spheres by Snell's law (sphere_tracer.h), in long double.
+// the lens's spheres by Snell's law (support/sphere_tracer.h), in long double.
 
 #include <cmath>
 #include <vector>
@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "lens/aberrations.h"
-#include "sphere_tracer.h"
+#include "support/sphere_tracer.h"
 
 using namespace tilt_lens;
 using namespace sphere_tracer;
