@@ -108,7 +108,7 @@ std::string CameraBlockText(const StateCamera& c, const BlockNumbers& numbers, c
 		numbers.Text("Tilt_Direction", c.tilt_direction_deg, Unit::NONE), numbers.Text("Focus_Distance", c.focus_distance_mm, Unit::LENGTH),
 		numbers.Text("Image_Distance", c.image_distance_mm, Unit::LENGTH), numbers.Text("Shift_X", shift[0] * c.pitch_mm, Unit::LENGTH),
 		numbers.Text("Shift_Y", shift[1] * c.pitch_mm, Unit::LENGTH), numbers.Text("Aperture_Diameter", c.aperture_diameter_mm, Unit::LENGTH),
-		EffectLines(c, numbers, layout), layout.place);
+		layout.lens_words + EffectLines(c, numbers, layout), layout.place);
 }
 
 std::string CameraBlockOf(const StateCamera& camera, const Place& place, double unit_mm)

@@ -55,6 +55,7 @@ struct BlockLayout
 	} tilt = Tilt::OF_LENS;
 	/// Conditions for `#if` around the words; empty: always.
 	std::string distortion_only_if, rims_only_if;
+	std::string lens_words;   ///< further words of the tilt_lens block, each line indented by two tabs and ended
 	std::string place;    ///< lines: location, direction, right, up, .., each indented by one tab and ended
 };
 

@@ -19,6 +19,7 @@ void AddDetect(CLI::App& app);
 void AddCalibrate(CLI::App& app, const std::string& command_line);
 void AddPose(CLI::App& app);
 void AddProfile(CLI::App& app);
+void AddLens(CLI::App& app);
 void AddExport(CLI::App& app);
 void AddImport(CLI::App& app);
 

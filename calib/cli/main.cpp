@@ -26,6 +26,7 @@ int main(int argc, char** argv)
 		tiltcal::AddCalibrate(app, tiltcal::CommandLine(argc, argv));
 		tiltcal::AddPose(app);
 		tiltcal::AddProfile(app);
+		tiltcal::AddLens(app);
 		tiltcal::AddExport(app);
 		tiltcal::AddImport(app);
 		try
