@@ -14,7 +14,7 @@ namespace tiltcal
 void FillSolution(const Task& task, const Geometry& geometry, const BlurFit& fit, const Unknowns& x, const LensCovariance& covariance, Solution& out);
 
 /// Throws Refused where aperture, focus or a tilt are not determined, saying what to photograph.
-void RefuseUndetermined(const Task& task, const Solution& solution);
+void RefuseUndetermined(const Task& task, const BlurFit& fit, const Solution& solution);
 
 }
 
