@@ -35,9 +35,10 @@ public:
 		AddRemarks(JudgePhotographs(c));
 		AddRemarks(JudgeBoard(c));
 		AddRemarks(JudgeUntilted(c));
+		// What these name is not the lens's aberrations. A slight fault of the light may be theirs: they move edges too.
+		const bool odd = verdict.grade != Grade::GOOD;
 		AddRemarks(JudgeLight(c.light));
-		// What these name is not the lens's aberrations.
-		const bool explained = verdict.grade != Grade::GOOD;
+		const bool explained = odd || verdict.grade == Grade::POOR;
 		ImageDistance();
 		for (size_t s = 0; s < c.solution.states.size(); ++s)
 		{
