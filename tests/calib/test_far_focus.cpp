@@ -114,6 +114,8 @@ void ExpectWithinItsSigmas(const Calibration& c, double q)
 	// As the verdict asks of every lens.
 	EXPECT_LT(found.lens_tilt.sigma, 0.03);
 	EXPECT_FALSE(found.chosen_by_power);
+	// No blur is below 7 px: nothing is said of the camera's sharpening, which only sharp edges tell.
+	EXPECT_TRUE(std::isnan(c.light.sharpening.value));
 	EXPECT_EQ(c.verdict.grade, Grade::GOOD) << [&]
 	{
 		std::string text;
