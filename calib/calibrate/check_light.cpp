@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tiltcal
 {
@@ -23,6 +24,10 @@ const double SHARPENED = 0.1;
 /// Shift over radius. An exponent wrong by 1 % gives 0.004: m = e^1.01 = e + 0.01 e log e, at e = 1/2 0.0035, over the slope 2/(pi R).
 const double BENT = 0.004;
 const double CERTAIN = 3;   // sigmas
+/// Sharpening is seen where the blur is narrower than so many px; told from wider ones, as where the focus is at infinity, it would be an
+/// error of the edge's shape: 0.04 px of 13 are 1 px².
+const double SHARP = 4;
+const int ENOUGH_SHARP = 20;
 
 /// Slope of places by radii of one photograph, least squares through 0.
 double SlopeOf(const Calibration& c, size_t s, size_t p, double& weight)
@@ -39,12 +44,23 @@ double SlopeOf(const Calibration& c, size_t s, size_t p, double& weight)
 	return aa > 0 ? ab / aa : 0;
 }
 
+int SharpEdges(const Task& task)
+{
+	int sharp = 0;
+	for (const State& state : task.states)
+		for (const Photo& photo : state.photos)
+			for (const Edge& e : photo.edges)
+				sharp += e.blur < SHARP;
+	return sharp;
+}
+
 }
 
 LightCheck CheckLight(const Calibration& c)
 {
 	LightCheck light;
-	light.sharpening = { -c.solution.psf_floor_squared.value, c.solution.psf_floor_squared.sigma };
+	const double unknown = std::numeric_limits<double>::quiet_NaN();
+	light.sharpening = SharpEdges(c.task) < ENOUGH_SHARP ? Estimate{ unknown, unknown } : Estimate{ -c.solution.psf_floor_squared.value, c.solution.psf_floor_squared.sigma };
 	std::vector<double> slopes, weights;
 	double edges = 0, clipped = 0;
 	for (size_t s = 0; s < c.task.states.size(); ++s)

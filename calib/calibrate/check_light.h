@@ -11,7 +11,7 @@
 namespace tiltcal
 {
 
-/// Of a solved calibration by an exact model.
+/// Of a solved calibration by an exact model. `sharpening` is NaN where nothing is sharp.
 LightCheck CheckLight(const Calibration& calibration);
 
 /// What it says that a user must know, with grades.

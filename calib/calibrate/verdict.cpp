@@ -8,6 +8,7 @@
 #include "solve/blur_fit.h"
 #include <tiltcal/calibrate.h>
 #include "base/robust.h"
+#include "model/focus_words.h"
 #include "model/tilt_angles.h"
 
 #include <fmt/format.h>
@@ -34,8 +35,10 @@ public:
 		AddRemarks(JudgePhotographs(c));
 		AddRemarks(JudgeBoard(c));
 		AddRemarks(JudgeUntilted(c));
-		// What these name is not the lens's aberrations.
-		const bool explained = verdict.grade != Grade::GOOD;
+		// What these name is not the lens's aberrations. A slight fault of the light may be theirs: they move edges too.
+		const bool odd = verdict.grade != Grade::GOOD;
+		AddRemarks(JudgeLight(c.light));
+		const bool explained = odd || verdict.grade == Grade::POOR;
 		ImageDistance();
 		for (size_t s = 0; s < c.solution.states.size(); ++s)
 		{
@@ -45,8 +48,6 @@ public:
 			OnePhotograph(s);
 			BlurAgainstGeometry(s);
 		}
-		for (const Remark& remark : JudgeLight(c.light))
-			Say(remark.grade, remark.text);
 		Priors();
 		Correlations();
 		if (!explained)
@@ -103,9 +104,26 @@ private:
 			++all;
 		}
 		const double share = all ? double(std::min(front, all - front)) / all : 0;
-		if (share < 0.05)
-			Say(share < 0.01 ? Grade::FAIR : Grade::GOOD, fmt::format("state {}: {:.0f} % of the edges lie on one side of the plane of focus: photograph boards that reach through it",
+		if (share < 0.05 && !WithinReach(s))
+			Say(Grade::GOOD, fmt::format("state {}: no board reaches the plane of focus: how far the lens is focused follows from how blur grows towards the camera, best from boards at "
+				"different distances", StateName(s)));
+		else if (share < 0.05)
+			Say(share < 0.01 && WithinReach(0) ? Grade::FAIR : Grade::GOOD, fmt::format("state {}: {:.0f} % of the edges lie on one side of the plane of focus: photograph boards that reach through it",
 				StateName(s), 100 * (1 - share)));
+	}
+
+	/// Whether the picture shows the plane of focus no farther than ten times as far as the boards.
+	bool WithinReach(size_t s) const
+	{
+		double farthest = 0;
+		for (const Observation& o : observations)
+			farthest = std::max(farthest, o.P.z);
+		const Point& centre = c.geometry.states[s].principal_point;
+		double nearest = 0;   // as 1/z
+		for (const int right : { 0, c.task.width })
+			for (const int down : { 0, c.task.height })
+				nearest = std::max(nearest, Dot(c.solution.states[s].q, Vec3<double>{ (right - centre[0]) / c.geometry.w_px, (centre[1] - down) / c.geometry.w_px, 1 }));
+		return 10 * farthest * nearest > 1;
 	}
 
 	void OnePhotograph(size_t s)
@@ -145,17 +163,22 @@ private:
 			const double f = s.focal_length.value, d = s.aperture_diameter.value;
 			const double found = prior.quantity == Quantity::FOCAL_LENGTH ? f : prior.quantity == Quantity::F_NUMBER ? f / d : prior.quantity == Quantity::IMAGE_DISTANCE ? s.w_mm.value
 				: prior.quantity == Quantity::FOCUS_DISTANCE ? s.focus_distance.value : d;
-			const double pull = std::abs(found - prior.value) / std::max(prior.sigma, 1e-4 * prior.value);
+			// A distance as it was fitted, by its reciprocal.
+			const double change = prior.quantity == Quantity::FOCUS_DISTANCE ? prior.value * (prior.value / found - 1) : found - prior.value;
+			const double pull = std::abs(change) / std::max(prior.sigma, 1e-4 * prior.value);
 			if (pull > 3)
-				Say(pull > 6 ? Grade::POOR : Grade::FAIR, fmt::format("{} was given as {:.5g} +- {:.2g}, the photographs pull it to {:.5g}: are `square`, `pitch` and the value right?",
-					prior.Name(), prior.value, prior.sigma, found));
+				Say(pull > 6 ? Grade::POOR : Grade::FAIR, fmt::format("{} was given as {:.5g} +- {:.2g}, the photographs pull it to {}: are `square`, `pitch` and the value right?",
+					prior.Name(), prior.value, prior.sigma, prior.quantity == Quantity::FOCUS_DISTANCE ? FocusWords(InverseFocus(s.states[0])).value_or(fmt::format("{:.5g}", found)) : fmt::format("{:.5g}", found)));
 		}
 	}
 
 	void Correlations()
 	{
 		for (const Correlation& r : c.solution.correlations)
-			if (std::abs(r.value) > 0.97)
+			if (std::abs(r.value) > 0.97 && r.first == "aperture_diameter" && r.second == "focus_distance" && !WithinReach(0))
+				// Where nothing is sharp they are the slope and the offset of one line, and their sigmas are what counts.
+				Say(Grade::GOOD, fmt::format("aperture_diameter and 1/U can hardly be told apart (correlation {:.3f}): boards at more different distances do", -r.value));
+			else if (std::abs(r.value) > 0.97)
 				Say(Grade::FAIR, fmt::format("{} and {} can hardly be told apart (correlation {:.3f}): their {} is known better than each", r.first, r.second, r.value, KnownBetter(r)));
 	}
 

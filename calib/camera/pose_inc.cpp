@@ -28,11 +28,11 @@ Place PlaceOf(const CameraPose& pose)
 	return { { pose.location.x(), pose.location.y(), pose.location.z() }, row(0), row(1), row(2) };
 }
 
-/// The place for TiltCal_<state>_Body of the calibration's .inc files. Look_At is a focus distance away, for the eye.
+/// The place for TiltCal_<state>_Body of the calibration's .inc files. Look_At is a focus distance away, for the eye; a focus at infinity or beyond has none.
 std::string PlaceText(const StateCamera& c, const CameraPose& pose, double unit_mm)
 {
 	const Eigen::Vector3d forward = pose.camera_from_world.row(2), up = pose.camera_from_world.row(1);
-	const double away = std::isfinite(c.focus_distance_mm) ? c.focus_distance_mm : 1000;
+	const double away = c.focus_distance_mm > 0 && c.focus_distance_mm < 1e6 ? c.focus_distance_mm : 1000;
 	return fmt::format("// The same place for the other states: TiltCal_<state>_Body(TiltCal_Pose_Location, TiltCal_Pose_Look_At, TiltCal_Pose_Sky).\n"
 		"{}#declare TiltCal_Pose_Location = {};\n#declare TiltCal_Pose_Look_At = {};\n#declare TiltCal_Pose_Sky = {};\n",
 		c.IsTilted() ? "// Only the untilted state's pose is such a place: this lens centre has moved with the tilt.\n" : "",

@@ -161,6 +161,17 @@ void ReadEffects(const Node& top, StateCamera& c)
 	c.aperture_diameter_mm = blades["aperture_diameter_mm"].Positive();
 }
 
+/// Where U cannot be told from infinity, it is null, and 1/U has all that is known. Files of import have U only.
+double ReadFocus(const Node& state)
+{
+	const Node distance = state["focus_distance_mm"];
+	if (!distance.json->is_null() || !state.json->contains("inverse_focus_per_mm"))
+		return distance.NumberOr(INFINITY_MM);
+	const Node q = state["inverse_focus_per_mm"];
+	q.NeedList(3);
+	return 1 / q.At(2).Number();
+}
+
 Json NumberOrNull(double x) { return std::isfinite(x) ? Json(x) : Json(); }
 
 }
@@ -189,7 +200,7 @@ StateCamera ReadStateCamera(const std::string& file, const std::string& name)
 	if (!(std::abs(c.lens_tilt_deg) < 90))
 		tilt.Fail(fmt::format("is {}, not between -90 and 90", c.lens_tilt_deg));
 	c.tilt_direction_deg = state["tilt_direction_deg"].Number();
-	c.focus_distance_mm = state["focus_distance_mm"].NumberOr(INFINITY_MM);
+	c.focus_distance_mm = ReadFocus(state);
 	c.aperture_diameter_mm = top["aperture_diameter_mm"].NumberOr(0);
 	c.field_curvature_per_mm = top["field_curvature_per_mm"].NumberOr(0);
 	ReadEffects(top, c);

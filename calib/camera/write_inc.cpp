@@ -2,6 +2,7 @@
 
 #include "camera/write_inc.h"
 
+#include "model/focus_words.h"
 #include "model/projection.h"
 #include "model/state_names.h"
 #include <tiltcal/calibrate.h>
@@ -14,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace tiltcal
 {
@@ -21,11 +23,12 @@ namespace tiltcal
 namespace
 {
 
+/// POV-Ray has no infinity; a focus at 1e30 mm is one.
+double NotInfinite(double x) { return std::isfinite(x) ? x : 1e30; }
+
 std::string Declare(const std::string& prefix, const std::string& name, const Estimate& e, const std::string& comment)
 {
-	// POV-Ray has no infinity; a focus at 1e30 mm is one.
-	const double value = std::isfinite(e.value) ? e.value : 1e30;
-	return fmt::format("#declare {}_{} = {:.10g};   // +- {:.2g} {}\n", prefix, name, value, e.sigma, comment);
+	return fmt::format("#declare {}_{} = {:.10g};   // +- {:.2g} {}\n", prefix, name, NotInfinite(e.value), e.sigma, comment);
 }
 
 std::string Vector(const Vec3<double>& v, int digits = 9)
@@ -61,6 +64,15 @@ std::string ApertureText(const StateCamera& camera, double fitted_mm, const std:
 {
 	return Declare(prefix, "Aperture_Diameter", { camera.aperture_diameter_mm, camera.sigma.aperture_diameter_mm },
 		camera.blades.count ? fmt::format("mm, of the circle through the blades' corners: blurs edges like a disc of {:.10g} mm", fitted_mm) : "mm");
+}
+
+/// Where its sigma says nothing, what does.
+std::string FocusText(const StateCamera& camera, const StateLens& lens, const std::string& prefix)
+{
+	const std::optional<std::string> words = FocusWords(InverseFocus(lens));
+	if (!words)
+		return Declare(prefix, "Focus_Distance", { camera.focus_distance_mm, camera.sigma.focus_distance_mm }, "mm, along the axis");
+	return fmt::format("#declare {}_Focus_Distance = {:.10g};   // mm, along the axis; {}\n", prefix, NotInfinite(camera.focus_distance_mm), *words);
 }
 
 /// Those of vignetting and chromatic aberration: all that was estimated.
@@ -100,7 +112,7 @@ std::string Numbers(const Calibration& c, size_t s, Distorted distorted, const s
 	const auto declare = [&](const std::string& name, double value, double its_sigma, const std::string& comment) { out += Declare(prefix, name, { value, its_sigma }, comment); };
 	declare("Image_Distance", camera.image_distance_mm, sigma.image_distance_mm, "mm");
 	out += ApertureText(camera, (bare ? c.render : c.solution).aperture_diameter.value, prefix);
-	declare("Focus_Distance", camera.focus_distance_mm, sigma.focus_distance_mm, "mm, along the axis");
+	out += FocusText(camera, (bare ? c.render : c.solution).states[s], prefix);
 	declare("Focal_Length", camera.focal_length_mm, sigma.focal_length_mm, "mm");
 	declare("Focal_Plane_Tilt", camera.focal_plane_tilt_deg, sigma.focal_plane_tilt_deg, "degrees");
 	declare("Tilt_Direction", camera.tilt_direction_deg, sigma.tilt_direction_deg, "degrees, 0 = recedes towards picture up, 90 = right");
@@ -133,10 +145,17 @@ std::string Numbers(const Calibration& c, size_t s, Distorted distorted, const s
 	return out;
 }
 
+/// A plane of focus parallel to the axis, or nearly so, has no focal_plane_tilt that could be written.
+BlockLayout::Tilt TiltOf(const StateLens& lens)
+{
+	const bool ahead = FocusPlaceOf(InverseFocus(lens)) == FocusPlace::BEFORE_THE_LENS;
+	return ahead && std::abs(lens.focal_plane_tilt.value) < 89 ? BlockLayout::Tilt::OF_FOCAL_PLANE : BlockLayout::Tilt::OF_LENS;
+}
+
 std::string Macro(const Calibration& c, size_t s, const std::string& p)
 {
 	BlockLayout layout;
-	layout.tilt = BlockLayout::Tilt::OF_FOCAL_PLANE;
+	layout.tilt = TiltOf(c.solution.states[s]);
 	layout.distortion_only_if = "TiltCal_Distortion";
 	layout.rims_only_if = "TiltCal_Rim";
 	layout.place = fmt::format("\tlocation Location\n\tdirection {}_Image_Distance*z\n\tright {:.10g}*x\n\tup {:.10g}*y\n\tsky Sky\n\tlook_at Look_At\n",

@@ -26,6 +26,8 @@ TiltAngles Unfold(TiltAngles a, const TiltAngles& near)
 		a.lens_tilt = -a.lens_tilt;
 		a.focal_plane_tilt = -a.focal_plane_tilt;
 	}
+	// A plane parallel to the axis is at 90 degrees and at -90.
+	a.focal_plane_tilt -= 180 * std::round((a.focal_plane_tilt - near.focal_plane_tilt) / 180);
 	return a;
 }
 
@@ -51,8 +53,9 @@ TiltAngles AnglesFromPlane(const Vec3<double>& q, double w_mm)
 	}
 	a.lens_tilt = sign * tilt_lens::AngleFromAxis(lens.normal) * DEGREES;
 	a.tilt_direction = direction * DEGREES;
-	// tan(focal_plane_tilt) is the slope of the plane towards the direction just found.
-	a.focal_plane_tilt = std::atan(-(q.x * std::sin(direction) + q.y * std::cos(direction)) / q.z) * DEGREES;
+	// tan(focal_plane_tilt) is the slope of the plane towards the direction just found. A lens without tilt at infinity has no plane.
+	const double across = -(q.x * std::sin(direction) + q.y * std::cos(direction));
+	a.focal_plane_tilt = across == 0 ? 0 : std::atan(across / q.z) * DEGREES;
 	a.focus_distance = 1 / q.z;
 	a.focal_length = 1 / lens.power;
 	return a;
@@ -61,8 +64,9 @@ TiltAngles AnglesFromPlane(const Vec3<double>& q, double w_mm)
 void FillStateLens(const Vec3<double>& q, double w_mm, const Eigen::Matrix4d& covariance, StateLens& lens)
 {
 	const TiltAngles a = AnglesFromPlane(q, w_mm);
-	Eigen::Matrix<double, 5, 4> J;
-	const double scale = std::max(std::abs(q.z), 1e-9);
+	Eigen::Matrix<double, 4, 4> J;
+	// Of q's length: q_z is 0 where the focus is at infinity, and so is q of a lens without tilt.
+	const double scale = std::max(Length(q), 1e-4 / w_mm);
 	for (int k = 0; k < 4; ++k)
 	{
 		const double step = 1e-4 * (k < 3 ? scale : w_mm);
@@ -73,18 +77,18 @@ void FillStateLens(const Vec3<double>& q, double w_mm, const Eigen::Matrix4d& co
 		};
 		const TiltAngles p = moved(step), n = moved(-step);
 		J.col(k) << p.lens_tilt - n.lens_tilt, p.focal_plane_tilt - n.focal_plane_tilt,
-			p.tilt_direction - n.tilt_direction, p.focus_distance - n.focus_distance, p.focal_length - n.focal_length;
+			p.tilt_direction - n.tilt_direction, p.focal_length - n.focal_length;
 		J.col(k) /= 2 * step;
 	}
-	const Eigen::Matrix<double, 5, 5> c = J * covariance * J.transpose();
+	const Eigen::Matrix4d c = J * covariance * J.transpose();
 	const auto sigma = [&](int k) { return std::sqrt(std::max(c(k, k), 0.0)); };
 	lens.q = q;
 	lens.q_sigma = { std::sqrt(covariance(0, 0)), std::sqrt(covariance(1, 1)), std::sqrt(covariance(2, 2)) };
 	lens.lens_tilt = { a.lens_tilt, sigma(0) };
 	lens.focal_plane_tilt = { a.focal_plane_tilt, sigma(1) };
 	lens.tilt_direction = { a.tilt_direction, sigma(2) };
-	lens.focus_distance = { a.focus_distance, sigma(3) };
-	lens.focal_length = { a.focal_length, sigma(4) };
+	lens.focus_distance = { a.focus_distance, lens.q_sigma.z / (q.z * q.z) };   // steps could reach to the other side of infinity
+	lens.focal_length = { a.focal_length, sigma(3) };
 }
 
 }

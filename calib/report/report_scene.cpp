@@ -3,6 +3,7 @@
 #include "report/report_scene.h"
 
 #include "lens/angles.h"
+#include "model/focus_words.h"
 #include "report/html.h"
 #include "report/page_view.h"
 
@@ -206,7 +207,8 @@ private:
 	std::string DistanceOfFocus(const PageView& view) const
 	{
 		const double U = lens.focus_distance.value;
-		const std::string tilt = scene.has_hinge ? "plane of focus, " + html::Number(std::abs(lens.focal_plane_tilt.value), 1) + "° to the sensor" : std::string("plane of focus, parallel to the sensor");
+		const std::string tilt = scene.has_hinge ? "plane of focus, " + html::Number(std::abs(lens.focal_plane_tilt.value), 1) + "° to the sensor"
+			: "plane of focus, " + FocusInShort(InverseFocus(lens)).value_or("parallel to the sensor");
 		const bool below = hinge_is_drawn && Dot(scene.hinge, scene.tilt_up) < 0;
 		std::string out;
 		if (std::isfinite(U) && U > 0 && U < scene.far)

@@ -2,6 +2,7 @@
 
 #include "report/report_tables.h"
 
+#include "model/focus_words.h"
 #include "model/names.h"
 #include "model/predict.h"
 #include <tiltcal/calibrate.h>
@@ -47,6 +48,12 @@ std::string PointText(const Point& at, const Point& sigma, const std::string& un
 	return WithSigma({ at[0], sigma[0] }, "", 2) + ", " + WithSigma({ at[1], sigma[1] }, unit, 2);
 }
 
+std::string FocusText(const StateLens& lens)
+{
+	const std::optional<std::string> words = FocusWords(InverseFocus(lens));
+	return words ? Escape(*words) : WithSigma(lens.focus_distance, "mm", 1);
+}
+
 double RmsBlur(const Calibration& c, size_t s, size_t p)
 {
 	const std::vector<Edge>& edges = c.task.states[s].photos[p].edges;
@@ -70,7 +77,7 @@ Rows StateRows(const Calibration& c)
 		rows.push_back({ Escape(camera.state), tilted ? WithSigma({ camera.lens_tilt_deg, sigma.lens_tilt_deg }, "°") : "none",
 			tilted ? WithSigma({ camera.tilt_direction_deg, sigma.tilt_direction_deg }, "°") : "–",
 			tilted ? WithSigma({ camera.focal_plane_tilt_deg, sigma.focal_plane_tilt_deg }, "°") : "parallel",
-			WithSigma({ camera.focus_distance_mm, sigma.focus_distance_mm }, "mm", 1), WithSigma({ camera.focal_length_mm, sigma.focal_length_mm }, "mm"), WithSigma(FNumber(camera), ""),
+			FocusText(c.solution.states[s]), WithSigma({ camera.focal_length_mm, sigma.focal_length_mm }, "mm"), WithSigma(FNumber(camera), ""),
 			PointText(camera.principal_point, sigma.principal_point, "px") + (g.states[s].principal_point_fixed ? " (held)" : ""), Number(c.solution.states[s].rms_blur, 3) + " px",
 			std::to_string(c.task.states[s].photos.size()) });
 		if (g.shared_poses)
@@ -100,7 +107,7 @@ Rows CommonRows(const Calibration& c)
 	rows.push_back({ "image distance w", WithSigma(s.w_mm, "mm"), "lens centre to sensor, along the axis" });
 	rows.push_back({ "aperture diameter d", WithSigma(s.aperture_diameter, "mm"), "of the effective aperture" });
 	rows.push_back({ "focal length f", WithSigma(s.focal_length, "mm"), "untilted" });
-	rows.push_back({ "focus distance U", WithSigma(s.focus_distance, "mm", 1), "untilted, along the axis" });
+	rows.push_back({ "focus distance U", FocusText(s.states[0]), "untilted, along the axis" });
 	if (s.model == Model::CURVED)
 	{
 		rows.push_back({ "field curvature C", WithSigma(PerMetre(s.field_curvature), "per metre"), "of the bowl that the plane of focus touches on the lens axis; mean of the two below" });
@@ -284,7 +291,8 @@ std::string PriorsTable(const Calibration& c)
 		case Quantity::FOCUS_DISTANCE: found = s.focus_distance; break;
 		case Quantity::APERTURE_DIAMETER: found = s.aperture_diameter; break;
 		}
-		rows.push_back({ prior.Name(), prior.sigma > 2e-6 * std::abs(prior.value) ? WithSigma({ prior.value, prior.sigma }, "") : fmt::format("{:g}, fixed", prior.value), WithSigma(found, "") });
+		rows.push_back({ prior.Name(), prior.sigma > 2e-6 * std::abs(prior.value) ? WithSigma({ prior.value, prior.sigma }, "") : fmt::format("{:g}, fixed", prior.value),
+			prior.quantity == Quantity::FOCUS_DISTANCE ? Escape(FocusWords(InverseFocus(s.states[0])).value_or(WithSigma(found, ""))) : WithSigma(found, "") });
 	}
 	return html::Table(rows);
 }

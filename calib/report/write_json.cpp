@@ -2,6 +2,7 @@
 
 #include "report/write_json.h"
 
+#include "model/focus_words.h"
 #include "model/names.h"
 #include "lens/angles.h"
 #include "model/projection.h"
@@ -14,6 +15,7 @@
 #include <nlohmann/json.hpp>
 
 #include <cmath>
+#include <limits>
 
 namespace tiltcal
 {
@@ -67,6 +69,14 @@ void PutPrincipalPoint(Json& json, const StateCamera& camera)
 	json["principal_point_sigma_px"] = camera.sigma.principal_point;
 }
 
+/// What cannot be told from infinity has no distance; its 1/U is in inverse_focus_per_mm.
+void PutFocus(Json& json, const StateLens& lens)
+{
+	const double none = std::numeric_limits<double>::quiet_NaN();
+	const bool told = FocusPlaceOf(InverseFocus(lens)) != FocusPlace::AT_INFINITY;
+	Put(json, "focus_distance", "_mm", told ? lens.focus_distance : Estimate{ none, none });
+}
+
 Json StateJson(const Calibration& c, const Solution& solution, const Geometry& g, size_t s)
 {
 	const StateCamera camera = CameraOfFit(c.task, solution, g, s);
@@ -78,7 +88,7 @@ Json StateJson(const Calibration& c, const Solution& solution, const Geometry& g
 	Put(json, "lens_tilt", "_deg", { camera.lens_tilt_deg, camera.sigma.lens_tilt_deg });
 	Put(json, "tilt_direction", "_deg", { camera.tilt_direction_deg, camera.sigma.tilt_direction_deg });
 	Put(json, "focal_plane_tilt", "_deg", { camera.focal_plane_tilt_deg, camera.sigma.focal_plane_tilt_deg });
-	Put(json, "focus_distance", "_mm", { camera.focus_distance_mm, camera.sigma.focus_distance_mm });
+	PutFocus(json, lens);
 	Put(json, "focal_length", "_mm", { camera.focal_length_mm, camera.sigma.focal_length_mm });
 	PutPrincipalPoint(json, camera);
 	json["principal_point_fixed"] = g.states[s].principal_point_fixed;
@@ -121,7 +131,7 @@ Json SolutionJson(const Calibration& c, const Solution& solution, const Geometry
 	json["model"] = camera.model;
 	Put(json, "image_distance", "_mm", { camera.image_distance_mm, camera.sigma.image_distance_mm });
 	Put(json, "focal_length", "_mm", solution.focal_length);
-	Put(json, "focus_distance", "_mm", solution.focus_distance);
+	PutFocus(json, solution.states[0]);
 	Put(json, "aperture_diameter", "_mm", { camera.aperture_diameter_mm, camera.sigma.aperture_diameter_mm });
 	PutPrincipalPoint(json, camera);
 	for (size_t k = 0; k < 5; ++k)

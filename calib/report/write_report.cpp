@@ -2,6 +2,7 @@
 
 #include "report/write_report.h"
 
+#include "model/focus_words.h"
 #include "model/predict.h"
 #include <tiltcal/calibrate.h>
 #include "effects/effects.h"
@@ -42,7 +43,7 @@ std::string StateRows(const Calibration& c, const Solution& solution, const Geom
 			squares += r * r;
 		rows += fmt::format("{:<12} {:<6} {:>6} {:>16} {:>14} {:>16} {:>16} {:>9.3f} {:>8.3f}\n", c.task.states[s].name, NameOf(solution.model),
 			c.task.states[s].photos.size(), tilted ? PlusMinus(l.lens_tilt, 3) : "0", tilted ? PlusMinus(l.tilt_direction, 2) : "-",
-			tilted ? PlusMinus(l.focal_plane_tilt, 2) : "0", PlusMinus(l.focus_distance, 1),
+			tilted ? PlusMinus(l.focal_plane_tilt, 2) : "0", FocusInShort(InverseFocus(l)).value_or(PlusMinus(l.focus_distance, 1)),
 			std::sqrt(squares / double(g.states[s].photo_rms.size())), l.rms_blur);
 	}
 	return rows;
@@ -52,8 +53,8 @@ std::string ModelLine(const Solution& s)
 {
 	if (!s.failure.empty())
 		return fmt::format("{:<6} no answer: {}\n", NameOf(s.model), s.failure);
-	return fmt::format("{:<6} w {} mm   d {} mm   U {} mm   f {} mm   floor {:.2f} px\n", NameOf(s.model), PlusMinus(s.w_mm, 3),
-		PlusMinus(s.aperture_diameter, 3), PlusMinus(s.focus_distance, 1), PlusMinus(s.focal_length, 3), s.psf_floor_px.value);
+	return fmt::format("{:<6} w {} mm   d {} mm   U {}   f {} mm   floor {:.2f} px\n", NameOf(s.model), PlusMinus(s.w_mm, 3),
+		PlusMinus(s.aperture_diameter, 3), FocusWords(InverseFocus(s.states[0])).value_or(PlusMinus(s.focus_distance, 1) + " mm"), PlusMinus(s.focal_length, 3), s.psf_floor_px.value);
 }
 
 std::string PerMetre(const Estimate& e) { return fmt::format("{:.3f} +- {:.3f}", 1000 * e.value, 1000 * e.sigma); }

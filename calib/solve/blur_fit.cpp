@@ -157,6 +157,14 @@ std::optional<double> BlurFit::Minimise(Unknowns& x, Free free, size_t state) co
 	return cost;
 }
 
+double BlurFit::Nearness() const
+{
+	double sum = 0;
+	for (const Observation& o : observations)
+		sum += 1 / o.P.z;
+	return sum / double(std::max<size_t>(observations.size(), 1));
+}
+
 double BlurFit::Scale(const Unknowns& x) const
 {
 	std::vector<double> r;

@@ -86,6 +86,9 @@ struct BlurFit
 	/// weighted sum of squares), none without convergence.
 	std::optional<double> Minimise(Unknowns& x, Free free, size_t state) const;
 
+	/// Mean inverse depth of the edges, 1/mm: what is small beside it is small for a q, also where the focus is at infinity and q_z is 0.
+	double Nearness() const;
+
 	/// RobustSigma of the residuals, px.
 	double Scale(const Unknowns& x) const;
 

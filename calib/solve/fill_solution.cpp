@@ -116,9 +116,11 @@ void WidenSigmas(const Solution& by_photographs, Solution& out)
 	}
 }
 
-void RefuseUndetermined(const Task& task, const Solution& s)
+void RefuseUndetermined(const Task& task, const BlurFit& fit, const Solution& s)
 {
-	if (!(s.aperture_diameter.sigma < 0.1 * s.aperture_diameter.value) || !(s.states[0].q_sigma.z < 0.05 * std::abs(s.states[0].q.z)))
+	// Of a focus far away 1/U is known, not U: beside the boards' 1/z, as which it stands in the blur.
+	const double most = 0.05 * std::max(std::abs(s.states[0].q.z), fit.Nearness());
+	if (!(s.aperture_diameter.sigma < 0.1 * s.aperture_diameter.value) || !(s.states[0].q_sigma.z < most))
 		throw Refused(fmt::format("the untilted photographs do not determine aperture ({:.2f} +- {:.2f} mm) and focus: "
 			"photograph inclined boards whose blur changes clearly along the board", s.aperture_diameter.value, s.aperture_diameter.sigma));
 	for (size_t k = 1; k < s.states.size(); ++k)

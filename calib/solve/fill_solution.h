@@ -17,7 +17,7 @@ void FillSolution(const Task& task, const Geometry& geometry, const BlurFit& fit
 void WidenSigmas(const Solution& by_photographs, Solution& out);
 
 /// Throws Refused where aperture, focus or a tilt are not determined, saying what to photograph.
-void RefuseUndetermined(const Task& task, const Solution& solution);
+void RefuseUndetermined(const Task& task, const BlurFit& fit, const Solution& solution);
 
 }
 

@@ -30,7 +30,10 @@ struct Candidate
 /// that would be 3 sigma.
 const double SAME_COST = 20;
 
-double DifferenceOf(const Vec3<double>& a, const Vec3<double>& b) { return Length(a - b) / Length(b); }
+/// Of a q to which a plane is compared: near infinity both are small, and so is a difference that shows.
+const double LEAST_SHARE = 0.2;
+
+double DifferenceOf(const BlurFit& fit, const Vec3<double>& a, const Vec3<double>& b) { return Length(a - b) / std::max(Length(b), LEAST_SHARE * fit.Nearness()); }
 
 /// Adds a candidate, where its fit converged.
 void Keep(Candidate& candidate, const std::optional<double>& cost, std::vector<Candidate>& candidates)
@@ -54,7 +57,7 @@ const Candidate* Rival(const BlurFit& fit, const std::vector<Candidate>& candida
 {
 	const Candidate& best = candidates.front();
 	for (const Candidate& other : candidates)
-		if (DifferenceOf(fit.Plane(other.x, state), fit.Plane(best.x, state)) > 0.05 && other.cost - best.cost < SAME_COST)
+		if (DifferenceOf(fit, fit.Plane(other.x, state), fit.Plane(best.x, state)) > 0.05 && other.cost - best.cost < SAME_COST)
 			return &other;
 	return nullptr;
 }
@@ -103,14 +106,17 @@ std::vector<Candidate> Starts(const BlurFit& fit, const Unknowns& x, size_t stat
 	// RIGID: the distance follows from the tilt.
 	const std::vector<double> distances = fit.model == LensModel::RIGID ? std::vector<double>{ 1.0 } : std::vector<double>{ 0.6, 0.8, 1.0, 1.25 };
 	std::vector<Candidate> starts;
-	const double k = fit.Plane(x, 0).z;
+	const double k = fit.Plane(x, 0).z, least = LEAST_SHARE * fit.Nearness();
 	for (const double distance : distances)
 		for (const double slope : { 0.0, 0.3, 0.7, 1.3, 2.5, 5.0 })
 			for (int direction = 0; direction < (slope > 0 ? 12 : 1); ++direction)
 			{
 				Candidate c{ x, 0 };
 				const auto m = tilt_lens::FocalPlaneDirection(std::atan(slope), direction * tilt_lens::Pi / 6);
-				c.x.state[state] = StateOfPlane(fit.model, tilt_lens::PlaneAtDistance(m, k * distance), fit.w_mm);
+				// Planes through infinity tilt too: all of them would be one where k is 0.
+				Vec3<double> q = tilt_lens::PlaneAtDistance(m, std::max(k * distance, least));
+				q.z = k * distance;
+				c.x.state[state] = StateOfPlane(fit.model, q, fit.w_mm);
 				size_t n = 0;
 				for (const Observation& o : fit.observations)
 					if (o.state == state && n++ % 5 == 0)

@@ -82,7 +82,7 @@ Solution SolutionOf(LensModel model, Model name, const Task& task, const Geometr
 	FillSolution(task, geometry, fit, f.x, fit.Covariance(f.x, geometry.w_px_sigma * task.pitch_mm), solution);
 	for (size_t s = 0; s < f.by_power.size(); ++s)
 		solution.states[s].chosen_by_power = f.by_power[s];
-	RefuseUndetermined(task, solution);
+	RefuseUndetermined(task, fit, solution);
 	return solution;
 }
 

@@ -254,7 +254,9 @@ void FocusOn(Scene& scene, double w, double f)
 	{
 		const Eigen::Vector3d X(x, y, -w);
 		const double image = -X.dot(scene.lens_normal);
-		seen[k++] = -X * (1 / (1 / f - 1 / image) / image);
+		// At infinity: a million kilometres away.
+		const double inverse = 1 / f - 1 / image;
+		seen[k++] = -X * (1 / (std::abs(inverse) < 1e-12 ? 1e-12 : inverse) / image);
 	}
 	scene.focus_point = seen[0];
 	scene.focus_normal = (seen[1] - seen[0]).cross(seen[2] - seen[0]).normalized();

@@ -57,7 +57,7 @@ struct StateLens
 	bool converged = true;
 	bool chosen_by_power = false;   ///< the blur fits two planes; the one that keeps f was taken
 	Vec3<double> q{ 0, 0, 0 }, q_sigma{ 0, 0, 0 };   ///< plane of focus, 1/mm
-	Estimate lens_tilt, focal_plane_tilt, tilt_direction, focus_distance, focal_length;
+	Estimate lens_tilt, focal_plane_tilt, tilt_direction, focus_distance, focal_length;   ///< near infinity q_z says more than U: U may be huge, or < 0
 	double rms_blur = 0;     ///< px, measured against predicted
 	int edges = 0;
 };

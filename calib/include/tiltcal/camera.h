@@ -41,7 +41,7 @@ struct StateCamera
 	Distortion distortion{};           ///< about the lens axis
 	/// As reported: folded into (-90, 90], the tilt carries the sign.
 	double lens_tilt_deg = 0, tilt_direction_deg = 0;
-	double focus_distance_mm = 0;      ///< U on the axis; infinite where it is that, or unknown
+	double focus_distance_mm = 0;      ///< U on the axis; infinite where it is that, or unknown; < 0: beyond infinity
 	double aperture_diameter_mm = 0;   ///< d; 0 where it is unknown
 	double field_curvature_per_mm = 0;
 	// Effects that the calibration writes; empty or false: not.

@@ -46,6 +46,7 @@ std::vector<Camera> AllCameras()
 		{ "135 mm, 30x20 board", 135, 5.6, 2000, 2400, 1600, 0.015, Squares(30, 20), { { 4, 180 } }, 0.03, false, 5 },
 		{ "macro, 45 mm at 0.15 m", 45, 8, 150, 1800, 1200, 0.02, Squares(12, 9), { { 4, 10 } }, 0, false, 6 },
 		{ "45 mm at infinity", 45, 2.8, FAR_AWAY, 1800, 1200, 0.02, Squares(12, 9), { { 1, 0 } }, 0, false, 6 },
+		{ "45 mm beyond infinity", 45, 2.8, -20000, 1800, 1200, 0.02, Squares(12, 9), { { 4, 60 } }, 0, false, 6 },
 		{ "machine vision, 25 mm f/1.8", 25, 1.8, 400, 2048, 1536, 0.00345, Squares(12, 9), { { 3, 90 }, { 5, 0 } }, 0, false, 5 },
 		{ "machine vision, 0.3 megapixels", 16, 2.8, 300, 640, 480, 0.0074, Squares(9, 7), { { 4, 0 } }, 0, false, 6 },
 		{ "phone, 5 mm f/1.8", 5, 1.8, 120, 4000, 3000, 0.0014, Squares(12, 9), { { 3, -30 } }, 0, false, 4 },

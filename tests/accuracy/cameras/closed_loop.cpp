@@ -38,8 +38,10 @@ void Compare(const Camera& camera, const Calibration& c, Answer& a)
 	a.deviations.push_back(Of("w", camera.ImageDistance(), c.solution.w_mm));
 	a.deviations.push_back(Of("f", camera.focal_length, c.solution.focal_length));
 	a.deviations.push_back(Of("d", camera.Aperture(), c.solution.aperture_diameter));
-	if (std::isfinite(camera.focus_distance))
+	if (std::isfinite(camera.focus_distance) && camera.focus_distance > 0)
 		a.deviations.push_back(Of("U", camera.focus_distance, c.solution.focus_distance));
+	else
+		a.deviations.push_back({ "1/U[1/m]", 1000 / camera.focus_distance, 1000 * c.solution.states[0].q.z, 1000 * c.solution.states[0].q_sigma.z });
 	for (size_t s = 1; s < c.solution.states.size(); ++s)
 		AddTilt(c, s, camera.tilts[s - 1], a);
 	for (size_t s = 0; s < c.geometry.states.size(); ++s)

@@ -25,7 +25,8 @@ double Between(Random& random, double a, double b) { return std::uniform_real_di
 /// Where the boards stand: at the plane of focus, or for a focus far away as near as the blur allows.
 double UsualDistance(const Camera& c)
 {
-	return std::min(c.focus_distance, 60 * c.focal_length);
+	const double far_away = 60 * c.focal_length;
+	return c.focus_distance > 0 ? std::min(c.focus_distance, far_away) : far_away;
 }
 
 Scene SceneOf(const Camera& c, double tilt, double direction)

@@ -20,7 +20,7 @@ namespace cameras
 struct Camera
 {
 	std::string name;
-	double focal_length = 45, f_number = 2.8, focus_distance = 700;   ///< the latter from the lens; infinity: HUGE_VAL
+	double focal_length = 45, f_number = 2.8, focus_distance = 700;   ///< the latter from the lens; infinity: HUGE_VAL, beyond it: < 0
 	int width = 1200, height = 800;
 	double pitch = 0.02;
 	tiltcal::Board board;                      ///< its size is chosen by SizeOfBoard where it is 0
