@@ -39,7 +39,7 @@ std::vector<TracedRay> TraceBundle(const Prescription& lens, const Paraxial& p, 
 		for (int i = 0; i < size.columns; ++i)
 			for (int j = 0; j < size.rows; ++j)
 			{
-				TracedRay traced{ s, { (sensor.width - 1.0) * i / (size.columns - 1), (sensor.height - 1.0) * j / (size.rows - 1) }, {}, {}, {} };
+				TracedRay traced{ s, { sensor.width * (i + 0.5) / size.columns - 0.5, sensor.height * (j + 0.5) / size.rows - 0.5 }, {}, {}, {} };
 				traced.sensor_point = SensorPoint(sensor, traced.pixel[0], traced.pixel[1]);
 				const Vec3<double> from = frame.ToGlass(traced.sensor_point);
 				for (const Vec3<double>& point : points)
