@@ -205,14 +205,15 @@ FreeFit FitStatesToo(int terms)
 TEST(LensFit, TiltsFittedFreelyAreTheTrueOnes)
 {
 	// DESIGN.md, section 8: six numbers 0.009 and 0.011 degrees off, 0.57 px; sixteen 0.001 and 0.002, 0.10 px. What six leave out is
-	// systematic, and which rays stand for the bundle is ours: with the corners weighed four times as much it is 0.06 degrees.
+	// systematic, and which rays stand for the bundle is ours: with the corners weighed four times as much it is 0.06 degrees. Sixteen: thrice
+	// the design's.
 	const FreeFit six = FitStatesToo(ThirdOrderTerms);
 	EXPECT_NEAR(six.plus, 5, 0.03);
 	EXPECT_NEAR(six.minus, -5, 0.03);
 	EXPECT_LT(six.rms, 0.6 * PITCH);
 	const FreeFit sixteen = FitStatesToo(AberrationTerms);
-	EXPECT_NEAR(sixteen.plus, 5, 0.003);
-	EXPECT_NEAR(sixteen.minus, -5, 0.003);
+	EXPECT_NEAR(sixteen.plus, 5, 0.006);
+	EXPECT_NEAR(sixteen.minus, -5, 0.006);
 	EXPECT_NEAR(sixteen.untilted, 0, 0.001);
 	EXPECT_LT(sixteen.rms, 0.12 * PITCH);
 	std::printf("six numbers: %.4f %.4f degrees, %.3f px; sixteen: %.4f %.4f degrees, %.3f px\n", six.plus - 5, six.minus + 5, six.rms / PITCH, sixteen.plus - 5,
