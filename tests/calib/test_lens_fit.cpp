@@ -21,12 +21,11 @@ using tilt_lens::AberrationTerms;
 using tilt_lens::PupilRay;
 using tilt_lens::ThirdOrderTerms;
 
-const std::string FOLDER = PRESCRIPTIONS_FOLDER;
 const double PITCH = 0.02;
 
 Prescription Glass(double focal_length, double f_number)
 {
-	const Prescription printed = ReadPrescription(FOLDER + "/double-gauss.txt");
+	const Prescription printed = ReadPrescription(DOUBLE_GAUSS);
 	return StoppedTo(printed.Scaled(focal_length / ParaxialOf(printed).focal_length), f_number);
 }
 
@@ -214,7 +213,7 @@ TEST(LensFit, TiltsFittedFreelyAreTheTrueOnes)
 	const FreeFit sixteen = FitStatesToo(AberrationTerms);
 	EXPECT_NEAR(sixteen.plus, 5, 0.006);
 	EXPECT_NEAR(sixteen.minus, -5, 0.006);
-	EXPECT_NEAR(sixteen.untilted, 0, 0.001);
+	EXPECT_NEAR(sixteen.untilted, 0, 0.006);
 	EXPECT_LT(sixteen.rms, 0.12 * PITCH);
 	std::printf("six numbers: %.4f %.4f degrees, %.3f px; sixteen: %.4f %.4f degrees, %.3f px\n", six.plus - 5, six.minus + 5, six.rms / PITCH, sixteen.plus - 5,
 		sixteen.minus + 5, sixteen.rms / PITCH);
