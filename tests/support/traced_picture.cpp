@@ -121,13 +121,17 @@ double Part(double start, int k, int dimension)
 class Light
 {
 public:
-	explicit Light(const Camera& camera)
+	/// For the pixels of `part`.
+	Light(const Camera& camera, const cv::Rect& part)
 		: sensor_(camera.scene().sensor), boxes_(size_t(COLUMNS * ROWS)), light_(ROWS, COLUMNS)
 	{
+		const Place from = PlaceOf(part.x, part.y), to = PlaceOf(part.x + part.width - 1, part.y + part.height - 1);
 		cv::parallel_for_(cv::Range(0, ROWS * COLUMNS), [&](const cv::Range& range)
 		{
 			for (int k = range.start; k < range.end; ++k)
 			{
+				if (k % COLUMNS < from.i || k % COLUMNS > to.i + 1 || k / COLUMNS < from.j || k / COLUMNS > to.j + 1)
+					continue;
 				const double u = (sensor_.width - 1.0) * (k % COLUMNS) / (COLUMNS - 1), v = (sensor_.height - 1.0) * (k / COLUMNS) / (ROWS - 1);
 				boxes_[size_t(k)] = camera.Opening(u, v);
 				light_(k / COLUMNS, k % COLUMNS) = boxes_[size_t(k)].Empty() ? 0 : Through(camera, u, v, boxes_[size_t(k)]);
@@ -226,12 +230,12 @@ float Recorded(const TracedScene& scene, double value, std::mt19937& random)
 cv::Mat TakeTracedPicture(const TracedScene& scene, const Pattern& pattern)
 {
 	const Camera camera(scene, scene.state);
-	const Light light(camera);
+	const cv::Rect part = scene.part.area() > 0 ? scene.part : cv::Rect(0, 0, scene.sensor.width, scene.sensor.height);
+	const Light light(camera, part);
 	GlassState untilted = scene.state;
 	untilted.tilt_deg = 0;
 	const Camera middle(scene, untilted);
 	const double u = 0.5 * (scene.sensor.width - 1), v = 0.5 * (scene.sensor.height - 1), unit = scene.exposure / Light::Through(middle, u, v, middle.Opening(u, v));
-	const cv::Rect part = scene.part.area() > 0 ? scene.part : cv::Rect(0, 0, scene.sensor.width, scene.sensor.height);
 	cv::Mat picture(scene.sensor.height, scene.sensor.width, CV_32FC1, cv::Scalar(0));
 	cv::parallel_for_(cv::Range(part.y, part.y + part.height), [&](const cv::Range& range)
 	{
