@@ -86,7 +86,7 @@ void CutByRim(const TiltLens& lens, LensRay& ray)
 
 /// Aberrated: the ray no longer leaves the lens where it entered it.
 template<bool Aberrated>
-void CutByRims(const TiltLens& lens, LensRay& ray)
+inline bool PassesRims(const TiltLens& lens, const LensRay& ray)
 {
 	for(int i = 0; i < lens.rim_count; i++)
 	{
@@ -96,11 +96,21 @@ void CutByRims(const TiltLens& lens, LensRay& ray)
 			: ViewOfRim(lens.normal, ray.v, ray.kappa, rim.distance);
 		const Vec3d S = Aberrated && rim.distance < 0.0 ? ray.point.x * lens.lens_x + ray.point.y * lens.lens_y : ray.S;
 		if(!PassesRim(view, S, rim.radius))
-		{
-			ray.weight = 0.0;
-			return;
-		}
+			return false;
 	}
+	return true;
+}
+
+void CutByRims(const TiltLens& lens, LensRay& ray)
+{
+	if(!PassesRims<false>(lens, ray))
+		ray.weight = 0.0;
+}
+
+void CutByRimsAberrated(const TiltLens& lens, LensRay& ray)
+{
+	if(!PassesRims<true>(lens, ray))
+		ray.weight = 0.0;
 }
 
 bool EveryLens(const TiltLens&) { return true; }
@@ -151,8 +161,8 @@ StepsInOrder[] =
 	{ NameOf(Word::Aberrations), &AberratesFifth, &AberrateFifthOrder, true },
 	{ NameOf(Word::NaturalVignetting), &FallsOff, &DarkenNaturally, true },
 	{ NameOf(Word::OpticalVignetting), &HasOneRimBefore, &CutByRim, true },
-	{ NameOf(Word::OpticalVignetting), &HasOtherRims, &CutByRims<false>, true },
-	{ NameOf(Word::OpticalVignetting), &HasOtherRimsAberrated, &CutByRims<true>, true }
+	{ NameOf(Word::OpticalVignetting), &HasOtherRims, &CutByRims, true },
+	{ NameOf(Word::OpticalVignetting), &HasOtherRimsAberrated, &CutByRimsAberrated, true }
 };
 
 void CopyEffectWords(const LensSpec& spec, TiltLens& lens)

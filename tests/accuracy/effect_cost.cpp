@@ -29,13 +29,14 @@ namespace fs = std::filesystem;
 struct Camera
 {
 	std::string name, words, outside;
-	std::set<std::string> steps; // functions of effects.cpp that its rays must run through, no others
+	std::set<std::string> steps; // functions of effects.cpp and aberrated_lens.cpp that its rays must run through, no others
 	double instructions = 0, seconds = std::numeric_limits<double>::infinity(); // a lens sample; of a picture
 };
 
 const char* const Disc = "OpenDisc";
 const char* const Plane = "FocusOnPlane";
 const char* const Leave = "LeaveLens";
+const std::string SixNumbers = "spherical 0.1 coma 0.1 astigmatism 0.1 curvature 0.1 distortion 0.1 pupil 0.1";
 const std::string Pigment = "bokeh { pigment { color rgb 1 } }";
 
 // `perspective` first, the lens without an effect second.
@@ -57,9 +58,12 @@ std::vector<Camera> Cameras()
 		{"`chromatic lateral`, three rays", "chromatic lateral 0.001, -0.001", "", {"MagnifyColour", Disc, Plane, Leave}},
 		{"`chromatic lateral` and `axial`, three rays", "chromatic lateral 0.001, -0.001 axial 0.001, -0.001", "",
 			{"MagnifyColour", Disc, Plane, "FocusColour", Leave}},
+		{"`aberrations`, the six of the third order", "aberrations { " + SixNumbers + " }", "", {Disc, Plane, Leave, "AberrateThirdOrder"}},
+		{"`aberrations` with `fifth_order`", "aberrations { " + SixNumbers + " fifth_order { 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1 } }", "",
+			{Disc, Plane, Leave, "AberrateFifthOrder"}},
 		{"all of them, three rays", "shift <0.1, 0.2> field_curvature 0.01 distortion -0.1, 0.02 blades 5 curvature 0.5 vignetting natural optical 9, 1 "
-			"pupil_magnification 1.1 chromatic lateral 0.001, -0.001 axial 0.001, -0.001", Pigment,
-			{"PassPupils", "MagnifyColour", "Undistort", "OpenBlades", "FocusOnBowl", "FocusColour", Leave, "DarkenNaturally", "CutByRim"}},
+			"pupil_magnification 1.1 chromatic lateral 0.001, -0.001 axial 0.001, -0.001 aberrations { " + SixNumbers + " }", Pigment,
+			{"PassPupils", "MagnifyColour", "Undistort", "OpenBlades", "FocusOnBowl", "FocusColour", Leave, "AberrateThirdOrder", "DarkenNaturally", "CutByRim"}},
 	};
 }
 
@@ -82,7 +86,7 @@ std::vector<std::string> Command(const fs::path& povray, int width)
 // Steps that were executed, by name.
 std::set<std::string> Steps(const Profile& profile)
 {
-	static const std::regex step("tilt_lens::\\(anonymous namespace\\)::(\\w+)\\(tilt_lens::TiltLens const&, tilt_lens::LensRay&\\)");
+	static const std::regex step("tilt_lens::(?:\\(anonymous namespace\\)::)?(\\w+)\\(tilt_lens::TiltLens const&, tilt_lens::LensRay&\\)");
 	std::set<std::string> steps;
 	for (const std::string& function : profile.functions)
 	{

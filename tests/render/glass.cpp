@@ -26,7 +26,7 @@ namespace
 namespace fs = std::filesystem;
 using namespace sphere_tracer;
 
-constexpr int WIDTH = 80, HEIGHT = 60, FRAMES = 512, PROCESSES = 16;
+constexpr int WIDTH = 64, HEIGHT = 48, FRAMES = 256, PROCESSES = 16;
 constexpr double PI = 3.14159265358979323846;
 
 // The thick lens of Hecht's "Optics", 6.1 (20, 40, 1 cm, n = 1.5), its stop behind it: where the light leaves for the sensor, so that
@@ -106,8 +106,8 @@ std::string Rays(const Set& s, int frame)
 			const Vector pixel = Plus(centre, {-RIGHT * ((x + dx) / WIDTH - 0.5), -UP * (0.5 - (y + dy) / HEIGHT), -s.m * s.w});
 			const Vector way = Unit(Plus(from, Times(pixel, -1)));
 			const Vector a = Unit(Cross(way, {0.36, 0.48, 0.8})), b = Cross(way, a);
-			mesh += "triangle { " + Sdl(Plus(from, Times(a, 0.01))) + ", " + Sdl(Plus(from, Plus(Times(a, -0.005), Times(b, 0.00866)))) + ", " +
-				Sdl(Plus(from, Plus(Times(a, -0.005), Times(b, -0.00866)))) + " }\n";
+			mesh += "triangle { " + Sdl(Plus(from, Times(a, 0.01))) + ", " + Sdl(Plus(from, Plus(Times(a, -0.005), Times(b, -0.00866)))) + ", " +
+				Sdl(Plus(from, Plus(Times(a, -0.005), Times(b, 0.00866)))) + " }\n";
 		}
 	return mesh + Placement() + " }\n";
 }

@@ -220,7 +220,7 @@ TEST(Aberrations, NewtonGoesBack)
 {
 	std::mt19937_64 random = Generator(4);
 	int folded = 0;
-	for(int i = 0; i < 3000; i++)
+	for(int i = 0; i < 300; i++)
 	{
 		const Aberrations<Real> wide = RandomAberrations(random, 0.04);
 		RealLens<double> lens = { Uniform(random, 0.5, 2), Uniform(random, 0.01, 1), { {}, double(wide.radius) } };
@@ -240,7 +240,7 @@ TEST(Aberrations, NewtonGoesBack)
 		EXPECT_LT(std::fabs(back.x - image.x) + std::fabs(back.y - image.y), 1e-12 * scale);
 		EXPECT_LT(std::fabs(back.slope_x - image.slope_x) + std::fabs(back.slope_y - image.slope_y), 1e-12 * scale);
 	}
-	EXPECT_LT(folded, 600) << "most do not";
+	EXPECT_LT(folded, 60) << "most do not";
 }
 
 // Any lens, of any size of numbers: never a NaN; where the inverse says that it has found the ray, it has.
@@ -252,7 +252,7 @@ TEST(Aberrations, AMillionRandomLensesGiveNumbers)
 	for(int i = 0; i < 1000000; i++)
 	{
 		RealLens<double> lens = { magnitude(-2, 2), magnitude(-6, 6), { {}, magnitude(-6, 6) } };
-		const double size = lens.aberrations.radius * magnitude(-6, 1);
+		const double size = lens.aberrations.radius * magnitude(-6, 0);
 		for(double& c : lens.aberrations.c)
 			c = size * Uniform(random, -1, 1);
 		const double r = lens.aberrations.radius;
@@ -270,9 +270,9 @@ TEST(Aberrations, AMillionRandomLensesGiveNumbers)
 		ASSERT_LT(std::fabs(again.x - object.x) + std::fabs(again.y - object.y), 1e-9 * (r + std::fabs(object.x) + std::fabs(object.y)));
 		ASSERT_LT(std::fabs(again.slope_x - object.slope_x) + std::fabs(again.slope_y - object.slope_y), 1e-9 * (1 + std::fabs(object.slope_x) + std::fabs(object.slope_y)));
 	}
-	// Numbers up to ten radii fold often, those below a hundredth never.
+	// Numbers as large as the radius fold often, those below a hundredth never.
 	EXPECT_GT(found, 600000);
-	EXPECT_GT(lost, 50000);
+	EXPECT_GT(lost, 10000);
 }
 
 // Distortion alone, at q = 0: the determinant of the radial part is (1 + 3 p)(1 - 3 p), p = P c / r, by hand; it folds at p = 1/3 either way.
