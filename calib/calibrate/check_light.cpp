@@ -103,7 +103,7 @@ std::vector<Remark> JudgeLight(const LightCheck& light)
 			light.sharpening.value, light.sharpening.sigma) });
 	if (std::abs(light.bend.value) > BENT && std::abs(light.bend.value) > CERTAIN * light.bend.sigma)
 		remarks.push_back({ std::abs(light.bend.value) > 5 * BENT ? Grade::POOR : Grade::FAIR, fmt::format("blurred edges lie {:.3f} +- {:.3f} of their blur's radius to the {} side of where the sharp ones "
-			"say: the values are not the light that `transfer` makes of them. A tone curve in the camera does this, and biases blur and aperture. Develop the raw files with a linear curve, or say the right `transfer`",
+			"say: the values are not the light that `transfer` makes of them. A tone curve in the camera does this (and coma, a little), and biases blur and aperture. Develop the raw files with a linear curve, or say the right `transfer`",
 			std::abs(light.bend.value), light.bend.sigma, light.bend.value > 0 ? "bright" : "dark") });
 	return remarks;
 }
