@@ -4,6 +4,7 @@
 
 #include "model/lens_model.h"
 #include <tiltcal/photo.h>
+#include "base/robust.h"
 #include "solve/by_photographs.h"
 #include "solve/edge_cost.h"
 #include "solve/prior_cost.h"
@@ -201,6 +202,18 @@ private:
 	ceres::Covariance covariance;
 };
 
+}
+
+ModelError ErrorOf(const std::vector<std::array<double, 2>>& residuals)
+{
+	const auto scale = [&](size_t k)
+	{
+		std::vector<double> r;
+		for (const auto& residual : residuals)
+			r.push_back(residual[k]);
+		return RobustSigma(std::move(r));
+	};
+	return { std::max(scale(0), 0.002), std::max(scale(1), 0.01) };
 }
 
 std::vector<std::array<double, 2>> JointFit::Residuals(const Geometry& geometry, const Unknowns& x) const
