@@ -5,6 +5,7 @@
 #include "base/files.h"
 #include "base/plain_text.h"
 #include "camera/camera_block.h"
+#include "camera/real_lens_words.h"
 #include "lens/words.h"
 #include "model/projection.h"
 
@@ -83,23 +84,7 @@ std::string StatesText(const GlassCameras& made)
 
 }
 
-std::string LensWords(const FittedLens& fit, int terms)
-{
-	const double f = 1 / fit.lens.power;
-	std::string out = fmt::format("\t\tpupil_magnification {:.10g}\n\t\taberrations {{\n\t\t\tfocal_length {:.10g}  f_stop {:.10g}\n", fit.lens.pupil_magnification, f,
-		f / (2 * fit.lens.aberrations.radius));
-	const auto per_mille = [&](int k) { return PER_MILLE * fit.lens.aberrations.c[k] / f + 0.; };
-	for (int k = 0; k < ThirdOrderTerms; ++k)
-		out += fmt::format("\t\t\t{} {:.10g}\n", tilt_lens::AberrationWords[k], per_mille(k));
-	if (terms > ThirdOrderTerms)
-	{
-		out += fmt::format("\t\t\t{} {{", tilt_lens::AberrationWords[ThirdOrderTerms]);
-		for (int k = ThirdOrderTerms; k < AberrationTerms; ++k)
-			out += fmt::format("{} {:.10g}", k > ThirdOrderTerms ? "," : "", per_mille(k));
-		out += " }\n";
-	}
-	return out + "\t\t}\n";
-}
+std::string LensWords(const FittedLens& fit, int terms) { return RealLensWords(fit.lens, terms); }
 
 std::string GlassInc(const GlassCameras& made, size_t s)
 {
