@@ -21,7 +21,8 @@ struct Options
 {
 	std::vector<std::string> only, lights{ "snr200" };
 	int seeds = 1, random = 0, first = 0;
-	std::string work = "closed-loop";
+	std::string work = "closed-loop", glass;
+	double focal_length = 0, f_number = 0;
 	bool short_lines = false;
 };
 
@@ -44,8 +45,13 @@ void Print(const Camera& camera, const Light& light, const Answer& a)
 
 struct Tally { int inside = 0, all = 0; double squares = 0, sum = 0; };
 
-void Run(const Options& o, const Camera& camera, unsigned pose_seed, std::map<std::string, Tally>& tally)
+void Run(const Options& o, Camera camera, unsigned pose_seed, std::map<std::string, Tally>& tally)
 {
+	camera.glass = o.glass;
+	if (o.focal_length > 0)
+		camera.focal_length = o.focal_length;
+	if (o.f_number > 0)
+		camera.f_number = o.f_number;
 	Negatives negatives;
 	try
 	{
@@ -85,6 +91,9 @@ int main(int argc, char** argv)
 	app.add_option("--seeds", o.seeds, "Draws of the noise");
 	app.add_option("--random", o.random, "So many random cameras instead of the table");
 	app.add_option("--first", o.first, "The first of them");
+	app.add_option("--glass", o.glass, "FILE of a lens prescription: the photographs are traced through it");
+	app.add_option("--focal-length", o.focal_length, "Of all cameras, mm, in place of their own");
+	app.add_option("--f-number", o.f_number, "Of all cameras, in place of their own");
 	app.add_option("--work", o.work, "Folder for the photographs");
 	CLI11_PARSE(app, argc, argv);
 	std::map<std::string, Tally> tally;
