@@ -141,7 +141,11 @@ std::string GlassReport(const GlassCameras& made)
 		out += fmt::format("  further rims, which the camera has no room for, would cut {:.2f} %\n", 100 * made.rims.left_out);
 	out += fmt::format("  light against the glass's: {:.2f} % RMS, at most {:+.2f} % at pixel {:.0f}, {:.0f} of {}\n\n", 100 * made.rims.rms_light, 100 * made.rims.worst_light,
 		made.rims.worst_pixel[0], made.rims.worst_pixel[1], made.task.states[made.rims.worst_state].name);
-	return out + "states\n" + StatesText(made) +
+	out += "states\n" + StatesText(made);
+	if (made.Lens().rms_mm > made.task.sensor.pitch_mm)
+		out += fmt::format("\nThe camera's rays are more than a pixel off: what it lacks are aberrations of higher order.{}\n",
+			made.task.terms < AberrationTerms ? " Sixteen numbers leave less." : " A smaller opening or a narrower picture has less of them.");
+	return out +
 		"\nNot in it: dispersion, diffraction, reflections, and how far a built lens is from its table.\n";
 }
 

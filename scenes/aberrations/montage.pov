@@ -3,7 +3,7 @@
 #version 3.7;
 global_settings { assumed_gamma 1 }
 #declare Files = array[6] { "aberration1.png", "aberration2.png", "aberration3.png", "aberration4.png", "aberration5.png", "aberration6.png" };
-#declare Words = array[6] { "ideal lens", "spherical 1.1: bubbles", "spherical -1.6: soft behind", "spherical -3, in focus: glow", "coma -9: tails", "astigmatism 40, two rims: swirl" };
+#declare Words = array[6] { "ideal lens", "spherical 1.1: bubbles", "spherical -1.6: soft behind", "spherical -3, in focus: glow", "coma -12: tails", "astigmatism 40, two rims: swirl" };
 background { rgb 0.02 }
 
 #macro Line(A, B, Colour)

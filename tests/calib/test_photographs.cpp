@@ -106,7 +106,8 @@ TEST(Photographs, FieldCurvature)
 	// spot; the mean of tangential and sagittal curvature lies between that and 0, which they do on both sides.
 	const double C = json.at("field_curvature_per_mm");
 	EXPECT_NEAR(C, -0.0006, 0.0004);
-	EXPECT_LT(json.at("field_curvature_sigma_per_mm").get<double>(), 0.1 * std::abs(C));
+	// It is there: by four of its sigmas, with what the photographs say against each other.
+	EXPECT_LT(json.at("field_curvature_sigma_per_mm").get<double>(), 0.25 * std::abs(C));
 	EXPECT_NEAR((json.at("tangential_curvature_per_mm").get<double>() + json.at("sagittal_curvature_per_mm").get<double>()) / 2, C, 1e-9);
 }
 

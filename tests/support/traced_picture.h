@@ -2,7 +2,7 @@
 //
 // Pictures of flat patterns through real glass: from each pixel through points of the exit pupil and every surface of a prescription to
 // the board, the mean of what is seen there. No formula of a blur, of aberrations or of a thin lens is in it. The sibling of
-// thin_lens_picture.h, with its patterns; some 1e6 rays a second and core.
+// thin_lens_picture.h, with its patterns.
 
 #ifndef TILTCAL_TRACED_PICTURE_H
 #define TILTCAL_TRACED_PICTURE_H
