@@ -4,7 +4,7 @@
 #version 3.7;
 global_settings { assumed_gamma 1 }
 #ifndef (Effect) #declare Effect = max(1, frame_number); #end
-#ifndef (Samples) #declare Samples = 128; #end
+#ifndef (Samples) #declare Samples = 256; #end
 
 camera {
 	tilt_lens {
