@@ -190,15 +190,11 @@ void Refine(const Task& task, const CalibrateOptions& o, Calibration& c)
 		c.render = c.solution;
 }
 
-/// With the rims that were chosen, which decide what of the opening an edge is seen through.
+/// With the rims that are written, which decide what of the opening an edge is seen through.
 void FindRealLens(const CalibrateOptions& o, Calibration& c)
 {
-	std::vector<tilt_lens::Rim> rims;
-	if (Uses(c, EffectId::VIGNETTING_OPTICAL))
-		for (const RimEstimate& rim : RimOf(c).rims)
-			rims.push_back({ rim.radius_mm.value, rim.distance_mm.value });
 	o.log.Info("solving one real lens, with aberrations, for all states");
-	c.real_lens = FindRealLens(c.task, c.geometry, c.solution, rims);
+	c.real_lens = FindRealLens(c.task, c.geometry, c.solution, WrittenRims(c));
 	if (!c.real_lens->failure.empty())
 		o.log.Warn(fmt::format("no real lens: {}", c.real_lens->failure));
 }

@@ -4,6 +4,7 @@
 
 #include "model/footprint.h"
 #include "model/predict.h"
+#include "solve/each_edge.h"
 
 #include <fmt/format.h>
 
@@ -47,10 +48,7 @@ double SlopeOf(const Calibration& c, size_t s, size_t p, double& weight)
 int SharpEdges(const Task& task)
 {
 	int sharp = 0;
-	for (const State& state : task.states)
-		for (const Photo& photo : state.photos)
-			for (const Edge& e : photo.edges)
-				sharp += e.blur < SHARP;
+	ForEachEdge(task, [&](size_t, size_t, const Edge& e) { sharp += e.blur < SHARP; });
 	return sharp;
 }
 

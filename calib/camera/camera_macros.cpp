@@ -8,6 +8,8 @@
 #include <ceres/rotation.h>
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace tiltcal
 {
 
@@ -57,6 +59,19 @@ std::string MacroPlace(const std::string& prefix, double width_mm, double height
 	return fmt::format("\tlocation Location\n\tdirection {}_Image_Distance*z\n\tright {:.10g}*x\n\tup {:.10g}*y\n\tsky Sky\n\tlook_at Look_At\n", prefix, width_mm, height_mm);
 }
 
+double SdlNumber(double value) { return std::isfinite(value) ? value + 0. : 1e30; }
+
+std::string BodyMacro(const std::string& prefix)
+{
+	return fmt::format(
+		"#macro {0}_Body(Location, Look_At, Sky)\n"
+		"\t#local Z = vnormalize(Look_At - Location);\n"
+		"\t#local X = vnormalize(vcross(Sky, Z));\n"
+		"\t#local Move = {0}_Lens_Centre.x * X + {0}_Lens_Centre.y * vcross(Z, X) + {0}_Lens_Centre.z * Z;\n"
+		"\t{0}(Location + Move, Look_At + Move, Sky)\n"
+		"#end\n", prefix);
+}
+
 std::string CameraMacros(const std::string& prefix, const std::string& centre, const std::string& block)
 {
 	return fmt::format(
@@ -67,16 +82,11 @@ std::string CameraMacros(const std::string& prefix, const std::string& centre, c
 		"#end\n\n"
 		"// The same where the camera's body stands still while the lens tilts about its pivot:\n"
 		"// Location and Look_At are those of the untilted state.\n"
-		"#macro {0}_Body(Location, Look_At, Sky)\n"
-		"\t#local Z = vnormalize(Look_At - Location);\n"
-		"\t#local X = vnormalize(vcross(Sky, Z));\n"
-		"\t#local Move = {0}_Lens_Centre.x * X + {0}_Lens_Centre.y * vcross(Z, X) + {0}_Lens_Centre.z * Z;\n"
-		"\t{0}(Location + Move, Look_At + Move, Sky)\n"
-		"#end\n\n"
+		"{3}\n"
 		"// The camera of this state's photograph N (1, 2, ...), in the board's frame.\n"
 		"#macro {0}_Pose(N)\n"
 		"\t{0}({0}_Photo_Location[N - 1], {0}_Photo_Look_At[N - 1], {0}_Photo_Sky[N - 1])\n"
-		"#end\n", prefix, block, centre);
+		"#end\n", prefix, block, centre, BodyMacro(prefix));
 }
 
 }

@@ -23,6 +23,12 @@ std::string PhotoPoses(const std::string& prefix, const std::vector<Photo>& phot
 /// PREFIX(Location, Look_At, Sky) about the block, PREFIX_Body, PREFIX_Pose. `centre`: what Location is.
 std::string CameraMacros(const std::string& prefix, const std::string& centre, const std::string& block);
 
+/// PREFIX_Body alone.
+std::string BodyMacro(const std::string& prefix);
+
+/// POV-Ray has no infinity, a length of 1e30 mm is one; and no -0.
+double SdlNumber(double value);
+
 /// The lines location, direction, right, up, sky and look_at of such a block.
 std::string MacroPlace(const std::string& prefix, double width_mm, double height_mm);
 

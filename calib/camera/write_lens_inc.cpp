@@ -12,8 +12,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 namespace tiltcal
 {
 
@@ -51,7 +49,7 @@ std::string Declares(const StateCamera& camera, const std::string& prefix)
 	std::string out;
 	const auto declare = [&](const std::string& name, double value, double sigma, const char* unit)
 	{
-		out += fmt::format("#declare {}_{} = {:.10g};   // +- {:.2g} {}\n", prefix, name, std::isfinite(value) ? value + 0. : 1e30, sigma, unit);
+		out += fmt::format("#declare {}_{} = {:.10g};   // +- {:.2g} {}\n", prefix, name, SdlNumber(value), sigma, unit);
 	};
 	const StateCameraSigma& sigma = camera.sigma;
 	declare("Lens_Tilt", camera.lens_tilt_deg, sigma.lens_tilt_deg, "degrees");

@@ -5,6 +5,7 @@
 #include "base/files.h"
 #include "base/plain_text.h"
 #include "camera/camera_block.h"
+#include "camera/camera_macros.h"
 #include "camera/real_lens_words.h"
 #include "lens/words.h"
 #include "model/projection.h"
@@ -24,11 +25,9 @@ using tilt_lens::ThirdOrderTerms;
 
 const double PER_MILLE = 1000;
 
-double Number(double value) { return std::isfinite(value) ? value + 0. : 1e30; }
-
 std::string Declare(const std::string& prefix, const char* name, double value, const char* unit)
 {
-	return fmt::format("#declare {}_{} = {:.10g};   // {}\n", prefix, name, Number(value), unit);
+	return fmt::format("#declare {}_{} = {:.10g};   // {}\n", prefix, name, SdlNumber(value), unit);
 }
 
 std::string Declares(const StateCamera& c, const std::string& prefix)
@@ -84,17 +83,14 @@ std::string StatesText(const GlassCameras& made)
 
 }
 
-std::string LensWords(const FittedLens& fit, int terms) { return RealLensWords(fit.lens, terms); }
-
 std::string GlassInc(const GlassCameras& made, size_t s)
 {
 	const StateCamera c = CameraOfGlass(made, s);
 	const std::string p = "TiltCal_" + c.state;
 	BlockLayout layout;
-	layout.lens_words = LensWords(made.Lens(), made.task.terms);
+	layout.lens_words = RealLensWords(made.Lens().lens, made.task.terms);
 	layout.rims_only_if = c.rims_mm.empty() ? "" : "TiltCal_Rim";
-	layout.place = fmt::format("\tlocation Location\n\tdirection {}_Image_Distance*z\n\tright {:.10g}*x\n\tup {:.10g}*y\n\tsky Sky\n\tlook_at Look_At\n", p,
-		c.width * c.pitch_mm, c.height * c.pitch_mm);
+	layout.place = MacroPlace(p, c.width * c.pitch_mm, c.height * c.pitch_mm);
 	std::string out = fmt::format(
 		"// camera-{}.inc, written by tiltcal {} from the prescription {}. World unit: 1 mm.\n"
 		"// Render at {} x {} pixels or any size of this aspect ratio.\n"
@@ -110,12 +106,7 @@ std::string GlassInc(const GlassCameras& made, size_t s)
 		"#macro {0}(Location, Look_At, Sky)\n{1}#end\n\n"
 		"// The same where the camera's body stands still while the lens tilts about its pivot: Location and Look_At are those of the\n"
 		"// untilted lens, Location its entrance pupil near the axis.\n"
-		"#macro {0}_Body(Location, Look_At, Sky)\n"
-		"\t#local Z = vnormalize(Look_At - Location);\n"
-		"\t#local X = vnormalize(vcross(Sky, Z));\n"
-		"\t#local Move = {0}_Lens_Centre.x * X + {0}_Lens_Centre.y * vcross(Z, X) + {0}_Lens_Centre.z * Z;\n"
-		"\t{0}(Location + Move, Look_At + Move, Sky)\n"
-		"#end\n", p, CameraBlockText(c, DeclaredNumbers(p), layout));
+		"{2}", p, CameraBlockText(c, DeclaredNumbers(p), layout), BodyMacro(p));
 }
 
 std::string GlassReport(const GlassCameras& made)

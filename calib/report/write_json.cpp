@@ -251,7 +251,6 @@ Json CovarianceJson(const NamedCovariance& c)
 	return json;
 }
 
-/// The aberrations in thousandths of the focal length, as the scene language has them.
 Json RealLensJson(const Calibration& c)
 {
 	const RealLens& lens = *c.real_lens;
@@ -266,9 +265,8 @@ Json RealLensJson(const Calibration& c)
 	Put(json, "pupil_magnification", "", lens.pupil_magnification);
 	Put(json, "psf_floor_squared", "_px2", lens.psf_floor_squared);
 	json["f_stop_of_aberrations"] = 0.5 * lens.focal_length_mm.value / lens.radius_mm;
-	const double per_mille = 1000 / lens.focal_length_mm.value;
 	for (size_t k = 0; k < lens.aberrations_mm.size(); ++k)
-		Put(json["aberrations"], tilt_lens::AberrationWords[k], "", { per_mille * lens.aberrations_mm[k].value, per_mille * lens.aberrations_mm[k].sigma });
+		Put(json["aberrations"], tilt_lens::AberrationWords[k], "", lens.PerMille(k));
 	for (size_t s = 0; s < lens.states.size(); ++s)
 	{
 		const RealLensState& state = lens.states[s];

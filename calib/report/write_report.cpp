@@ -117,7 +117,6 @@ std::string Evidence(const Calibration& c)
 	return out;
 }
 
-/// In thousandths of the focal length, as the scene language has them.
 std::string RealLensText(const Calibration& c)
 {
 	const RealLens& lens = *c.real_lens;
@@ -125,10 +124,9 @@ std::string RealLensText(const Calibration& c)
 		return fmt::format("\nreal lens: no answer: {}\n", lens.failure);
 	std::string out = fmt::format("\nreal lens, one for all states: focal length {} mm, aperture {} mm, pupil magnification {}\n", PlusMinus(lens.focal_length_mm, 3),
 		PlusMinus(lens.aperture_diameter_mm, 3), PlusMinus(lens.pupil_magnification, 4));
-	const double f = lens.focal_length_mm.value;
 	out += "  thousandths of the focal length:";
 	for (size_t k = 0; k < lens.aberrations_mm.size(); ++k)
-		out += fmt::format(" {} {}{}", tilt_lens::AberrationWords[k], PlusMinus({ 1000 * lens.aberrations_mm[k].value / f, 1000 * lens.aberrations_mm[k].sigma / f }, 3), k + 1 < lens.aberrations_mm.size() ? "," : "\n");
+		out += fmt::format(" {} {}{}", tilt_lens::AberrationWords[k], PlusMinus(lens.PerMille(k), 3), k + 1 < lens.aberrations_mm.size() ? "," : "\n");
 	for (size_t s = 1; s < lens.states.size(); ++s)
 		out += fmt::format("  {}: tilt {} degrees towards {}\n", c.task.states[s].name, PlusMinus(lens.states[s].lens.lens_tilt, 3), PlusMinus(lens.states[s].lens.tilt_direction, 2));
 	return out + fmt::format("  places of edges fit to {:.3f} px, their blurs to {:.3f} px\n", lens.rms_place, lens.rms_blur);

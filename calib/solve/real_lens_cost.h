@@ -9,9 +9,9 @@
 #include "edge/fit_response.h"
 #include "lens/aberrations.h"
 #include "lens/optics.h"
+#include "solve/jet_value.h"
 #include "solve/opening_points.h"
 
-#include <ceres/jet.h>
 #include <ceres/rotation.h>
 
 #include <array>
@@ -33,10 +33,6 @@ enum State { NX, NY, W, CX, CY, STATE_SIZE };
 enum Lens { POWER, MAGNIFICATION, OPENING, FLOOR_SQUARED, LENS_SIZE };
 
 }
-
-inline double ValueOf(double x) { return x; }
-template<typename T, int N>
-inline double ValueOf(const ceres::Jet<T, N>& x) { return x.a; }
 
 inline double Chained(double, const FitResponse::Value& v) { return v.value; }
 template<typename T, int N>

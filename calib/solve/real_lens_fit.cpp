@@ -4,7 +4,9 @@
 
 #include "edge/soft_radius.h"
 #include "model/footprint.h"
+#include "solve/block_covariance.h"
 #include "solve/by_photographs.h"
+#include "solve/each_edge.h"
 #include "solve/least_squares.h"
 #include "solve/solve_geometry.h"
 
@@ -24,7 +26,7 @@ using RealLensCost = ceres::AutoDiffCostFunction<struct WeightedRealLensEdge, 2,
 
 struct WeightedRealLensEdge
 {
-	RealLensEdge edge;
+	const RealLensEdge& edge;
 	double of_place, of_blur;
 
 	template<typename T>
@@ -79,36 +81,6 @@ RealLensEdge EdgeOf(const RealLensFit& fit, const Edge& e, const RealLensNumbers
 	return edge;
 }
 
-/// Of every edge, state by state.
-std::vector<RealLensEdge> EdgesOf(const RealLensFit& fit, const RealLensNumbers& x)
-{
-	struct Place { size_t state, photo; const Edge* edge; };
-	std::vector<Place> places;
-	for (size_t s = 0; s < fit.task.states.size(); ++s)
-		for (size_t p = 0; p < fit.task.states[s].photos.size(); ++p)
-			for (const Edge& e : fit.task.states[s].photos[p].edges)
-				places.push_back({ s, p, &e });
-	std::vector<std::optional<RealLensEdge>> made(places.size());
-	cv::parallel_for_(cv::Range(0, int(places.size())), [&](const cv::Range& range)
-	{
-		for (int k = range.start; k < range.end; ++k)
-			made[size_t(k)] = EdgeOf(fit, *places[size_t(k)].edge, x, places[size_t(k)].state, places[size_t(k)].photo);
-	});
-	std::vector<RealLensEdge> edges;
-	for (auto& edge : made)
-		edges.push_back(std::move(*edge));
-	return edges;
-}
-
-template<typename Each>
-void ForEachEdge(const Task& task, Each each)
-{
-	for (size_t s = 0; s < task.states.size(); ++s)
-		for (size_t p = 0; p < task.states[s].photos.size(); ++p)
-			for (const Edge& e : task.states[s].photos[p].edges)
-				each(s, p, e);
-}
-
 /// Holds the numbers of a block that are not free.
 void Hold(ceres::Problem& problem, double* block, int size, const std::vector<int>& held)
 {
@@ -118,10 +90,10 @@ void Hold(ceres::Problem& problem, double* block, int size, const std::vector<in
 		problem.SetManifold(block, new ceres::SubsetManifold(size, held));
 }
 
-std::vector<PhotographBlocks> Build(const RealLensFit& fit, RealLensNumbers& x, ceres::Problem& problem)
+/// Of edges that outlive the problem.
+std::vector<PhotographBlocks> Build(const RealLensFit& fit, const std::vector<RealLensEdge>& edges, RealLensNumbers& x, ceres::Problem& problem)
 {
 	std::vector<PhotographBlocks> photographs;
-	const std::vector<RealLensEdge> edges = EdgesOf(fit, x);
 	size_t k = 0;
 	ForEachEdge(fit.task, [&](size_t s, size_t p, const Edge& e)
 	{
@@ -169,10 +141,26 @@ RealLensNumbers StartOfRealLens(const Task& task, const Geometry& geometry, cons
 	return x;
 }
 
-std::vector<std::array<double, 2>> RealLensFit::Residuals(const RealLensNumbers& x) const
+std::vector<RealLensEdge> RealLensFit::EdgesAbout(const RealLensNumbers& x) const
+{
+	struct Place { size_t state, photo; const Edge* edge; };
+	std::vector<Place> places;
+	ForEachEdge(task, [&](size_t s, size_t p, const Edge& e) { places.push_back({ s, p, &e }); });
+	std::vector<std::optional<RealLensEdge>> made(places.size());
+	cv::parallel_for_(cv::Range(0, int(places.size())), [&](const cv::Range& range)
+	{
+		for (int k = range.start; k < range.end; ++k)
+			made[size_t(k)] = EdgeOf(*this, *places[size_t(k)].edge, x, places[size_t(k)].state, places[size_t(k)].photo);
+	});
+	std::vector<RealLensEdge> edges;
+	for (auto& edge : made)
+		edges.push_back(std::move(*edge));
+	return edges;
+}
+
+std::vector<std::array<double, 2>> RealLensFit::Residuals(const std::vector<RealLensEdge>& edges, const RealLensNumbers& x) const
 {
 	std::vector<std::array<double, 2>> all;
-	const std::vector<RealLensEdge> edges = EdgesOf(*this, x);
 	ForEachEdge(task, [&](size_t s, size_t p, const Edge&)
 	{
 		double seen[2];
@@ -182,53 +170,31 @@ std::vector<std::array<double, 2>> RealLensFit::Residuals(const RealLensNumbers&
 	return all;
 }
 
-bool RealLensFit::Minimise(RealLensNumbers& x, bool coarse) const
+bool RealLensFit::Minimise(const std::vector<RealLensEdge>& edges, RealLensNumbers& x, bool coarse) const
 {
 	ceres::Problem problem;
-	Build(*this, x, problem);
+	Build(*this, edges, x, problem);
 	LeastSquares how{ ceres::DENSE_SCHUR, 200, coarse ? 1e-4 : 1e-7 };
 	how.threads = AllThreads();
 	return SolveLeastSquares(how, problem).has_value();
 }
 
-std::optional<RealLensFit::Judged> RealLensFit::Judge(RealLensNumbers& x) const
+std::optional<RealLensFit::Judged> RealLensFit::Judge(const std::vector<RealLensEdge>& edges, RealLensNumbers& x) const
 {
 	ceres::Problem problem;
-	const std::vector<PhotographBlocks> photographs = Build(*this, x, problem);
-	ceres::Covariance::Options options;
-	options.algorithm_type = ceres::SPARSE_QR;
-	ceres::Covariance covariance(options);
-	std::vector<const double*> free;
-	int size = 0;
-	for (const double* block : SharedBlocks(x))
-	{
-		size += problem.ParameterBlockSize(block);
-		if (!problem.IsParameterBlockConstant(block))
-			free.push_back(block);
-	}
-	if (!covariance.Compute(free, &problem))
+	const std::vector<PhotographBlocks> photographs = Build(*this, edges, x, problem);
+	const std::vector<const double*> shared = SharedBlocks(x);
+	BlockCovariance covariance(problem);
+	if (!covariance.Compute(shared))
 		return std::nullopt;
 	double cost = 0;
 	problem.Evaluate(ceres::Problem::EvaluateOptions(), &cost, nullptr, nullptr, nullptr);
 	const double scale = 2 * cost / std::max(problem.NumResiduals() - problem.NumParameters(), 1);
 	Judged judged;
-	judged.by_edges = Eigen::MatrixXd::Zero(size, size);
-	int row = 0;
-	for (const double* a : SharedBlocks(x))
-	{
-		int column = 0;
-		for (const double* b : SharedBlocks(x))
-		{
-			Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> c(problem.ParameterBlockSize(a), problem.ParameterBlockSize(b));
-			if (!problem.IsParameterBlockConstant(a) && !problem.IsParameterBlockConstant(b) && covariance.GetCovarianceBlock(a, b, c.data()))
-				judged.by_edges.block(row, column, c.rows(), c.cols()) = scale * c;
-			column += problem.ParameterBlockSize(b);
-		}
-		row += problem.ParameterBlockSize(a);
-	}
+	judged.by_edges = scale * covariance.Of(shared);
 	if (const std::optional<CovarianceByPhotographs> jackknife = JackknifeOverPhotographs(problem, photographs))
 	{
-		judged.by_photographs = jackknife->Of(SharedBlocks(x));
+		judged.by_photographs = jackknife->Of(shared);
 		judged.held_out = jackknife->HeldOut();
 	}
 	return judged;
@@ -244,16 +210,18 @@ std::optional<RealLensAnswer> SolveRealLens(const Task& task, const Geometry& ge
 	x.magnification_free = true;
 	RealLensFit fit{ task, rims, {} };
 	const int rounds = 4;
+	std::vector<RealLensEdge> edges = fit.EdgesAbout(x);
 	for (int round = 0; round < rounds; ++round)
 	{
 		// Each round is built about the last one's answer, and knows better what the lens leaves out.
-		fit.error = ErrorOf(fit.Residuals(x));
-		if (!fit.Minimise(x, round + 1 < rounds))
+		fit.error = ErrorOf(fit.Residuals(edges, x));
+		if (!fit.Minimise(edges, x, round + 1 < rounds))
 			return std::nullopt;
+		edges = fit.EdgesAbout(x);
 	}
-	answer.error = ErrorOf(fit.Residuals(x));
+	answer.error = ErrorOf(fit.Residuals(edges, x));
 	fit.error = answer.error;
-	const std::optional<RealLensFit::Judged> judged = fit.Judge(x);
+	const std::optional<RealLensFit::Judged> judged = fit.Judge(edges, x);
 	if (!judged)
 		return std::nullopt;
 	answer.judged = *judged;

@@ -35,9 +35,12 @@ struct RealLensFit
 	std::vector<tilt_lens::Rim> rims;
 	ModelError error;
 
+	/// Every edge, linear about these numbers, state by state; what the others take.
+	std::vector<RealLensEdge> EdgesAbout(const RealLensNumbers& x) const;
+
 	/// As JointFit's.
-	std::vector<std::array<double, 2>> Residuals(const RealLensNumbers& x) const;
-	bool Minimise(RealLensNumbers& x, bool coarse = false) const;
+	std::vector<std::array<double, 2>> Residuals(const std::vector<RealLensEdge>& edges, const RealLensNumbers& x) const;
+	bool Minimise(const std::vector<RealLensEdge>& edges, RealLensNumbers& x, bool coarse) const;
 
 	/// Sigmas in the shape of the numbers themselves, by the edges and by the photographs; and what each photograph is predicted to by the
 	/// others, its pose being its own: the RMS of all residuals, in their sigmas.
@@ -47,7 +50,7 @@ struct RealLensFit
 		std::optional<Eigen::MatrixXd> by_photographs;
 		double held_out = 0;                         ///< 0: cannot be had
 	};
-	std::optional<Judged> Judge(RealLensNumbers& x) const;
+	std::optional<Judged> Judge(const std::vector<RealLensEdge>& edges, RealLensNumbers& x) const;
 };
 
 struct RealLensAnswer

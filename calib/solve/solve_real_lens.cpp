@@ -2,7 +2,9 @@
 
 #include "solve/solve_real_lens.h"
 
+#include "model/thin_lens_of_real.h"
 #include "model/tilt_angles.h"
+#include "solve/fill_solution.h"
 #include "solve/real_lens_fit.h"
 
 #include <algorithm>
@@ -19,11 +21,11 @@ using namespace real_lens;
 /// Where a state's numbers begin among those of RealLensFit::Judged.
 int PlaceOfState(size_t s) { return LENS_SIZE + tilt_lens::AberrationTerms + STATE_SIZE * int(s); }
 
-/// q (1/mm) and image distance (mm) of the thin lens that does near its axis what this one does: MODEL.md, Real lenses.
+/// q (1/mm) and image distance (mm) of the thin lens that does near its axis what this one does.
 Eigen::Vector4d ThinLensOf(const Eigen::VectorXd& state, const Eigen::VectorXd& lens, double pitch_mm)
 {
 	const double one = 1 / std::sqrt(state[NX] * state[NX] + state[NY] * state[NY] + 1), m = lens[MAGNIFICATION];
-	const double w = state[W] * pitch_mm / m, power = m * lens[POWER] / pitch_mm - (m - 1) * one / w;
+	const double w = state[W] * pitch_mm / m, power = PowerOfThinLens(m, lens[POWER] / pitch_mm, one, w);
 	return { power * state[NX] * one, power * state[NY] * one, power * one - 1 / w, w };
 }
 
@@ -55,14 +57,6 @@ Eigen::Matrix4d CovarianceOfThinLens(const RealLensNumbers& x, size_t s, const E
 	return by * c * by.transpose();
 }
 
-/// Each by its own sigmas: the larger one.
-void Widen(const StateLens& other, StateLens& own)
-{
-	for (Estimate StateLens::*number : { &StateLens::lens_tilt, &StateLens::focal_plane_tilt, &StateLens::tilt_direction, &StateLens::focus_distance, &StateLens::focal_length })
-		(own.*number).sigma = std::max((own.*number).sigma, (other.*number).sigma);
-	own.q_sigma = { std::max(own.q_sigma.x, other.q_sigma.x), std::max(own.q_sigma.y, other.q_sigma.y), std::max(own.q_sigma.z, other.q_sigma.z) };
-}
-
 RealLensState StateOf(const RealLensAnswer& answer, size_t s, double pitch_mm, const std::vector<double>& sigma)
 {
 	const RealLensNumbers& x = answer.numbers;
@@ -74,7 +68,7 @@ RealLensState StateOf(const RealLensAnswer& answer, size_t s, double pitch_mm, c
 	{
 		StateLens by_photographs;
 		FillStateLens(q, thin[3], CovarianceOfThinLens(x, s, *answer.judged.by_photographs, pitch_mm), by_photographs);
-		Widen(by_photographs, state.lens);
+		WidenSigmas(by_photographs, state.lens);
 	}
 	const size_t at = size_t(PlaceOfState(s));
 	state.image_distance_mm = { x.states[s][W] * pitch_mm, sigma[at + W] * pitch_mm };

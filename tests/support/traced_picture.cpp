@@ -3,6 +3,7 @@
 #include "support/traced_picture.h"
 
 #include "prescription/trace.h"
+#include "support/srgb.h"
 
 #include <Eigen/Geometry>
 #include <opencv2/imgproc.hpp>
@@ -298,10 +299,7 @@ float Recorded(const TracedScene& scene, double value, std::mt19937& random)
 {
 	std::normal_distribution<double> normal(0, std::max(scene.noise, 1e-12));
 	const double v = std::min(1.0, value + normal(random));
-	if (!scene.eight_bit)
-		return float(v);
-	const double coded = v <= 0 ? 0 : v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055, rounded = std::round(coded * 255) / 255;
-	return float(rounded <= 0.04045 ? rounded / 12.92 : std::pow((rounded + 0.055) / 1.055, 2.4));
+	return scene.eight_bit ? ThroughSrgb(v) : float(v);
 }
 
 }

@@ -318,6 +318,13 @@ struct RealLens
 	std::vector<RealLensState> states;
 	double rms_place = 0, rms_blur = 0;       ///< robust, px
 	double held_out = 0;              ///< RMS residual of photographs predicted by the others, in what is usual of all; 0: cannot be said
+
+	/// An aberration in thousandths of the focal length, as the scene language has it.
+	Estimate PerMille(size_t k) const
+	{
+		const double unit = 1000 / focal_length_mm.value;
+		return { unit * aberrations_mm[k].value, unit * aberrations_mm[k].sigma };
+	}
 };
 
 struct Calibration
