@@ -183,7 +183,7 @@ StateCamera ReadStateCamera(const std::string& file, const std::string& name)
 	const Node state = FindState(top, name);
 	StateCamera c;
 	c.state = state["name"].Text();
-	c.model = top["model"].Text();
+	c.model = top[json.contains("thin_model") ? "thin_model" : "model"].Text();
 	const Node size = top["image_size_px"];
 	size.NeedList(2);
 	c.width = size.At(0).Count();
@@ -195,11 +195,13 @@ StateCamera ReadStateCamera(const std::string& file, const std::string& name)
 	c.principal_point = { centre.At(0).Number(), centre.At(1).Number() };
 	for (size_t k = 0; k < 5; ++k)
 		c.distortion[k] = top["distortion"][DISTORTION_NAMES[k]].Number();
-	const Node tilt = state["lens_tilt_deg"];
+	// The thin camera's, where the file's answer is a real lens.
+	const Node thin = state.json->contains("thin") ? state["thin"] : state;
+	const Node tilt = thin["lens_tilt_deg"];
 	c.lens_tilt_deg = tilt.Number();
 	if (!(std::abs(c.lens_tilt_deg) < 90))
 		tilt.Fail(fmt::format("is {}, not between -90 and 90", c.lens_tilt_deg));
-	c.tilt_direction_deg = state["tilt_direction_deg"].Number();
+	c.tilt_direction_deg = thin["tilt_direction_deg"].Number();
 	c.focus_distance_mm = ReadFocus(state);
 	c.aperture_diameter_mm = top["aperture_diameter_mm"].NumberOr(0);
 	c.field_curvature_per_mm = top["field_curvature_per_mm"].NumberOr(0);

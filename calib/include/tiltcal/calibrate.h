@@ -81,13 +81,12 @@ struct EffectChoice
 
 struct CalibrateOptions
 {
-	/// None: curved where it predicts photographs left out better, else plane.
+	/// None: curved where it predicts photographs left out better, else plane; from there on lens, where aberrations are left over and it predicts them better.
 	std::optional<Model> model;
 	Poses poses = Poses::AUTO;
 	Refinement refinement = Refinement::EDGES;
 	EffectChoice effects{};
 	Log log{};
-	bool real_lens = false;   ///< one lens with aberrations for all states too: Calibration::real_lens
 };
 
 /// Solves everything. The paper's model is always solved too, and only refused when it was the one asked for. Then vignetting
