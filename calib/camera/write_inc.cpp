@@ -177,8 +177,9 @@ std::string CameraInc(const Calibration& c, size_t s)
 	const std::string thin = ThinLensPart(c, s, p);
 	if (!c.RealLensIsUsed())
 		return out + thin;
-	return out + "// 1: the real lens, with its aberrations. 0: the thin lens that comes nearest to it.\n#ifndef (TiltCal_Real_Lens)\n\t#ifdef (TiltCal_Distortion)\n"
-		"\t\t#declare TiltCal_Real_Lens = TiltCal_Distortion;\n\t#else\n\t\t#declare TiltCal_Real_Lens = 1;\n\t#end\n#end\n\n#if (TiltCal_Real_Lens)\n\n" + RealLensPart(c, s) +
+	return out + "// 1: the real lens, which has the tilts that the calibration says and predicts photographs of the board best.\n"
+		"// 0: the thin lens that comes nearest to it, which is better at distances where no board stood.\n"
+		"#ifndef (TiltCal_Real_Lens)\n\t#declare TiltCal_Real_Lens = 0;\n#end\n\n#if (TiltCal_Real_Lens)\n\n" + RealLensPart(c, s) +
 		"\n#else\n\n" + thin + "\n#end\n";
 }
 

@@ -40,6 +40,9 @@ StateCamera CameraOfLens(const Calibration& c, size_t s)
 	camera.focus_distance_mm = state.lens.focus_distance.value;
 	camera.sigma.focus_distance_mm = state.lens.focus_distance.sigma;
 	camera.lens_centre_mm = state.lens_centre_mm;
+	camera.aberrations = { m, lens.focal_length_mm.value, lens.radius_mm, {} };
+	for (size_t k = 0; k < lens.aberrations_mm.size(); ++k)
+		camera.aberrations->mm[k] = lens.aberrations_mm[k].value;
 	camera.focal_plane_tilt_deg = state.lens.focal_plane_tilt.value;
 	camera.sigma.focal_plane_tilt_deg = state.lens.focal_plane_tilt.sigma;
 	camera.focal_length_mm = state.lens.focal_length.value;
@@ -88,11 +91,8 @@ std::string RealLensPart(const Calibration& c, size_t s)
 	const RealLens& found = *c.real_lens;
 	const std::string p = "TiltCal_" + c.task.states[s].name;
 	const StateCamera camera = CameraOfLens(c, s);
-	tilt_lens::RealLens<double> lens{ found.pupil_magnification.value, 1 / found.focal_length_mm.value, { {}, found.radius_mm } };
-	for (size_t k = 0; k < found.aberrations_mm.size(); ++k)
-		lens.aberrations.c[k] = found.aberrations_mm[k].value;
 	BlockLayout layout;
-	layout.lens_words = RealLensWords(lens, tilt_lens::ThirdOrderTerms);
+	layout.lens_words = RealLensWords(RealLensOf(*camera.aberrations), tilt_lens::ThirdOrderTerms);
 	layout.rims_only_if = camera.rims_mm.empty() ? "" : "TiltCal_Rim";
 	layout.place = MacroPlace(p, camera.width * camera.pitch_mm, camera.height * camera.pitch_mm);
 	return fmt::format("// One real lens for all states: focal length {:.6g} +- {:.2g} mm; the places of edges fit to {:.3f} px, their blurs to {:.3f} px.\n", found.focal_length_mm.value,

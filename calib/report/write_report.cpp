@@ -145,7 +145,7 @@ std::string RealLensText(const Calibration& c)
 	out += fmt::format("  places of edges fit to {:.3f} px, their blurs to {:.3f} px\n", lens.rms_place, lens.rms_blur);
 	if (lens.held_out > 0 && lens.held_out_thin > 0)
 		out += fmt::format("  photographs left out are predicted to {:.2f} of what is usual by it, to {:.2f} by {}\n", lens.held_out, lens.held_out_thin, NameOf(c.solution.model));
-	return out + (lens.used ? "  it was taken: the tilts, and the cameras of the .inc files\n" : "  it was not taken\n");
+	return out + (lens.used ? "  it was taken: the tilts are its own; the .inc files have it where TiltCal_Real_Lens is 1\n" : "  it was not taken\n");
 }
 
 std::string VerdictText(const Verdict& verdict)

@@ -323,7 +323,7 @@ struct RealLens
 	double rms_place = 0, rms_blur = 0;       ///< robust, px
 	double held_out = 0;              ///< RMS residual of photographs predicted by the others, in what is usual of all; 0: cannot be said
 	double held_out_thin = 0;         ///< the same, in the same units, by the thin lens that it starts from
-	bool used = false;                ///< it is the answer: Calibration::TiltOf, the camera blocks
+	bool used = false;                ///< it is the answer: Calibration::TiltOf
 	double seconds = 0;               ///< that it took, by the clock
 
 	/// An aberration in thousandths of the focal length, as the scene language has it.
