@@ -10,6 +10,7 @@
 #include "rows_file.h"
 
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -99,6 +100,7 @@ int Run(int argc, char** argv)
 int main(int argc, char** argv)
 try
 {
+	std::signal(SIGXFSZ, SIG_IGN);  // a limit of file sizes is a message, not a death
 	return Run(argc, argv);
 }
 catch (const Failure& failure)

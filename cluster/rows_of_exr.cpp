@@ -132,7 +132,21 @@ void WriteExr(const std::vector<Piece>& pieces, const std::string& temporary, co
 	}
 	catch (const std::exception& error)
 	{
-		throw Failure(3, file + ": " + error.what());
+		throw Failure(3, file + ": cannot be written, or a part of it not read (" + error.what() + ")");
+	}
+	try
+	{
+		// What the destructor could not write is known only by reading it back.
+		if (!Imf::InputFile(temporary.c_str()).isComplete())
+			throw Failure(3, file + ": cannot be written; is the disk full?");
+	}
+	catch (const Failure&)
+	{
+		throw;
+	}
+	catch (const std::exception& error)
+	{
+		throw Failure(3, file + ": cannot be written (" + error.what() + ")");
 	}
 }
 

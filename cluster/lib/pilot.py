@@ -67,7 +67,7 @@ def row_costs(sub):
 	except OSError as error:
 		return {}, f"equal rows, because {sub['tiltcost']} cannot be run ({error.strerror})"
 	if done.returncode != 0:
-		said = " ".join(done.stderr.split("tiltcost:")[-1].split())
+		said = " ".join(done.stderr.split("error:", 1)[-1].split())
 		return {}, f"equal rows, because tiltcost says: {said[:300]}"
 	with open(rows, encoding="utf-8") as file:
 		costs = json.load(file)

@@ -44,7 +44,7 @@ def inspect(povray, scene, options, work, may_write):
 		raise Failure(3, f"{scene}: no such file; it is looked for from {work}")
 	with tempfile.TemporaryDirectory(prefix="povray-strips-") as folder:
 		# A pilot of nothing: it refuses scenes that write files, and traces no pixel that is not asked for.
-		env = dict(os.environ, TILT_LENS_PILOT=f"1,1,0.001,{folder}/p", **({"TILT_LENS_PILOT_WRITES": "1"} if may_write else {}))
+		env = dict(os.environ, TILT_LENS_PILOT=f"1,16,0.001,{folder}/p", **({"TILT_LENS_PILOT_WRITES": "1"} if may_write else {}))
 		pixel = ["+GA", "+Q1", "+SC2", "+EC2", "+SR2", "+ER2", f"+O{folder}/p"]
 		log = _log(command(povray, scene, options, pixel), env)
 		animated = re.search(r"Initial Frame: *(\d+) *Final Frame: *(\d+)[\s\S]*?Frame Step: *(\d+)", log) \
