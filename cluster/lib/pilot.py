@@ -6,6 +6,7 @@ import subprocess
 
 from common import refused, write_json
 from cutting import FIRST_STRIP, cost_of, cut, equal_rows, frame_groups
+from light import light_words
 from submission import load_cut
 
 
@@ -57,6 +58,7 @@ def row_costs(sub):
 	if sub["frames"]:
 		middle = sub["frames"][len(sub["frames"]) // 2]
 		command += [f"+SF{middle}", f"+EF{middle}"]
+	command += light_words(sub)
 	if sub["setting"]:
 		command += ["--setting", sub["setting"]]
 	if sub["may_write"]:

@@ -52,7 +52,7 @@ def _describe(values, script):
 	povray = values.get("--povray", os.path.join(beside, "povray"))
 	povray = os.path.abspath(povray) if "/" in povray else povray
 	scene, options = values["own"][0], values["own"][1:] + values["povray"]
-	found = inspect(povray, scene, options, os.getcwd(), "--scene-may-write" in values)
+	found = inspect(povray, scene, options + (["Declare=Strips_Light=0"] if "--light" in values else []), os.getcwd(), "--scene-may-write" in values)
 	output = os.path.abspath(output_name(scene, options, found["suffix"]))
 	frames = found["frames"]
 	targets = [frame_name(output, frame, found["last_frame"]) for frame in frames or [None]]

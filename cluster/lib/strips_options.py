@@ -41,11 +41,11 @@ files, POV-Ray and that folder must be in the same place on all nodes.
 A film (+KFI, +KFF) is an array of its frames; with more parts than frames each frame is cut too, by the pilot of the middle one.
 A scene that tiltcost cannot judge (another camera, no aperture) is cut into equal rows; take several parts for each node then.
 
-With --light one job first renders a small part with Declare=Strips_Light=1 and saves radiosity; it is loaded by all parts, which
-have Declare=Strips_Light=2. The scene says what that means:
+With --light the first job renders next to nothing with Declare=Strips_Light=1 and saves radiosity and photons; all parts load them, which
+have Declare=Strips_Light=2 (and 0 where it is only looked at). The scene says what that means:
   global_settings {
     radiosity { #if (Strips_Light = 2) pretrace_start 1 pretrace_end 1 always_sample off #end }
-    photons { count 20000 #if (Strips_Light = 1) save_file "strips.ph" #else load_file "strips.ph" #end }
+    photons { count 20000 #if (Strips_Light = 1) save_file "strips.ph" #end #if (Strips_Light = 2) load_file "strips.ph" #end }
   }
 
 Examples:

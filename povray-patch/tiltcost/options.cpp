@@ -160,6 +160,7 @@ Options ParseCommandLine(CLI::App& app, int argc, char** argv)
 	// CLI11 takes them from the back.
 	app.parse(std::vector<std::string>(own.rbegin(), own.rend()));
 	options.job.scene = files[0];
+	options.job.rows = !options.rows.empty();
 	options.job.options.insert(options.job.options.begin(), files.begin() + 1, files.end());
 	if (by_time->count())
 		options.time = Positive("--time", time, ParseDuration, "a time such as 60s, 5m or 2h");

@@ -25,7 +25,7 @@ SlurmctldPort=$(slurm_free_port)
 SlurmUser=$user
 SlurmdUser=$user
 AuthType=auth/munge
-AuthInfo=socket=$1/munge/socket,cred_expire=3
+AuthInfo=socket=$1/munge/socket,cred_expire=6
 CredType=cred/munge
 StateSaveLocation=$1/state
 SlurmctldPidFile=$1/slurmctld.pid

@@ -80,6 +80,19 @@ film)
 	cmp -s one/f1.png one/f2.png && fail "the frames are all the same: nothing shown"
 	# A part may hold several.
 	expect 0 s.pov $film --parts 2 --local 1 +Otwo/g.png; prints "3 parts: whole frames\|joined from 3 parts" ;;
+light)
+	# Photons and radiosity once: a part's pixels no longer depend on where it is cut. Without --light radiosity's do, as in stock POV-Ray.
+	scene s.pov "$blur" '#ifndef (Strips_Light) #declare Strips_Light = 0; #end
+		global_settings { radiosity { count 20 error_bound 0.8 pretrace_end 0.04 #if (Strips_Light = 2) pretrace_start 1 pretrace_end 1 always_sample off #end }
+		photons { count 3000 #if (Strips_Light = 1) save_file "strips.ph" #end #if (Strips_Light = 2) load_file "strips.ph" #end } }
+		sphere { <1.4, -0.3, -1>, 0.5 pigment { rgbt 1 } interior { ior 1.5 } photons { target refraction on reflection on } }'
+	expect 0 s.pov $small +FN16 --parts 1 --local 1 --light +Owhole.png; a=$(folder)
+	for kind in ph rca; do [ -s "$a/light/strips.$kind" ] || fail "no strips.$kind: $(ls "$a/light")"; done
+	expect 0 s.pov $small +FN16 --parts 4 --local 2 --light +Ostrips.png; pixels whole.png strips.png "light saved once"
+	grep -q "load_file\|Load" "$(folder)"/log/* ; [ ! -e strips.ph ] || fail "the user's folder is written into"
+	one one.png s.pov +W64 +H49 +FN16; expect 0 s.pov $small +FN16 --parts 4 --local 2 +Orows.png
+	python3 "$here/png_pixels.py" one.png rows.png > /dev/null 2>&1 && fail "radiosity is the same without --light: nothing shown"
+	scene t.pov "$blur"; expect 1 t.pov $small --parts 2 --local 1 --light; says "saved neither photons" ;;
 resume)
 	# A part that fails, and fails again, is named with the command that renders it; no picture until it is there; nothing is rendered twice.
 	scene s.pov "$blur"
