@@ -61,11 +61,18 @@ def light_words(sub):
 	return _words(sub, 2) + (["+RFI", f"+RF{radiosity}"] if os.path.exists(radiosity) else [])
 
 
-def _run(sub, more, log, env):
-	"""In the light's folder: there photons are saved, whose name the scene gives without a folder."""
-	scene = os.path.join(sub["cwd"], sub["scene"])
+def place(sub):
+	"""(working folder, scene, options) for POV-Ray: with --light the light's folder, where photons are saved and loaded, and whose names the
+	scene gives without a folder; the scene's own files are found from there by their whole names and the library paths."""
+	if not sub["light"]:
+		return sub["cwd"], sub["scene"], sub["options"]
 	options = [f"{word[:2]}{os.path.join(sub['cwd'], word[2:])}" if word.startswith("+L") else word for word in sub["options"]]
-	code = run(command(sub["povray"], scene, options, more), log, env, light_folder(sub))
+	return light_folder(sub), os.path.join(sub["cwd"], sub["scene"]), options
+
+
+def _run(sub, more, log, env):
+	folder, scene, options = place(sub)
+	code = run(command(sub["povray"], scene, options, more), log, env, folder)
 	if code != 0:
 		with open(log, encoding="utf-8", errors="replace") as file:
 			raise refused(f"the light is not rendered:\n{error_lines(file.read())}")

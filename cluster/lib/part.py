@@ -7,7 +7,7 @@ import tempfile
 import time
 
 from common import Failure, digest, refused, run, write_json
-from light import light_words
+from light import light_words, place
 from scene import check_files, command, error_lines
 from submission import describe, is_done, load_cut, part_file, record_file
 
@@ -46,7 +46,8 @@ def _render(sub, rows, unit, here):
 		if sub["cpus"]:
 			more.append(f"+WT{sub['cpus']}")
 		cpu = os.times()
-		code = run(command(sub["povray"], sub["scene"], sub["options"], more), log)
+		place_, scene, options = place(sub)
+		code = run(command(sub["povray"], scene, options, more), log, cwd=place_)
 		cpu = os.times().children_user + os.times().children_system - cpu.children_user - cpu.children_system
 		with open(log, encoding="utf-8", errors="replace") as file:
 			said = file.read()

@@ -6,7 +6,7 @@ import subprocess
 
 from common import refused, write_json
 from cutting import FIRST_STRIP, cost_of, cut, equal_rows, frame_groups
-from light import light_words
+from light import light_words, place
 from submission import load_cut
 
 
@@ -53,7 +53,8 @@ def row_costs(sub):
 	if sub["equal_rows"]:
 		return {}, "equal rows, as asked"
 	rows = f"{sub['folder']}/rows.json"
-	command = [sub["tiltcost"], "--povray", sub["povray"], sub["scene"], *sub["options"], "--rows", rows,
+	folder, scene, options = place(sub)
+	command = [sub["tiltcost"], "--povray", sub["povray"], scene, *options, "--rows", rows,
 		"--pilot-time", sub["pilot_time"], "--pilot-blocks", str(sub["pilot_blocks"])]
 	if sub["frames"]:
 		middle = sub["frames"][len(sub["frames"]) // 2]
@@ -65,7 +66,7 @@ def row_costs(sub):
 		command.append("--scene-may-write")
 	try:
 		done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False,
-			cwd=sub["cwd"])
+			cwd=folder)
 	except OSError as error:
 		return {}, f"equal rows, because {sub['tiltcost']} cannot be run ({error.strerror})"
 	if done.returncode != 0:

@@ -81,17 +81,19 @@ film)
 	# A part may hold several.
 	expect 0 s.pov $film --parts 2 --local 1 +Otwo/g.png; prints "3 parts: whole frames\|joined from 3 parts" ;;
 light)
-	# Photons and radiosity once: a part's pixels no longer depend on where it is cut. Without --light radiosity's do, as in stock POV-Ray.
-	scene s.pov "$blur" '#ifndef (Strips_Light) #declare Strips_Light = 0; #end
-		global_settings { radiosity { count 20 error_bound 0.8 pretrace_end 0.04 #if (Strips_Light = 2) pretrace_start 1 pretrace_end 1 always_sample off #end }
-		photons { count 3000 #if (Strips_Light = 1) save_file "strips.ph" #end #if (Strips_Light = 2) load_file "strips.ph" #end } }
-		sphere { <1.4, -0.3, -1>, 0.5 pigment { rgbt 1 } interior { ior 1.5 } photons { target refraction on reflection on } }'
-	expect 0 s.pov $small +FN16 --parts 1 --local 1 --light +Owhole.png; a=$(folder)
-	for kind in ph rca; do [ -s "$a/light/strips.$kind" ] || fail "no strips.$kind: $(ls "$a/light")"; done
-	expect 0 s.pov $small +FN16 --parts 4 --local 2 --light +Ostrips.png; pixels whole.png strips.png "light saved once"
-	grep -q "load_file\|Load" "$(folder)"/log/* ; [ ! -e strips.ph ] || fail "the user's folder is written into"
-	one one.png s.pov +W64 +H49 +FN16; expect 0 s.pov $small +FN16 --parts 4 --local 2 +Orows.png
-	python3 "$here/png_pixels.py" one.png rows.png > /dev/null 2>&1 && fail "radiosity is the same without --light: nothing shown"
+	# Photons once: shot by the first job, loaded by every part, and the pixels of one process that loads them. Radiosity is saved and
+	# loaded too, but POV-Ray goes on to sample where it finds too little (LIMITS.md): its pixels are not compared.
+	glass='sphere { <1.4, -0.3, -1>, 0.5 pigment { rgbt 1 } interior { ior 1.5 } photons { target refraction on reflection on } }'
+	light='#ifndef (Strips_Light) #declare Strips_Light = 0; #end'
+	scene s.pov "$blur" "$light global_settings { photons { count 3000 #if (Strips_Light = 1) save_file \"strips.ph\" #end #if (Strips_Light = 2) load_file \"strips.ph\" #end } } $glass"
+	expect 0 s.pov $small +FN16 --parts 4 --local 2 --light; dir=$(folder)
+	[ -s "$dir/light/strips.ph" ] || fail "no photons: $(ls "$dir/light")"; [ ! -e strips.ph ] || fail "the user's folder is written into"
+	(cd "$dir/light" && "$bin/povray" "+I$work/s.pov" "+O$work/one.png" -D +WT1 +W64 +H49 +FN16 Declare=Strips_Light=2 > "$work/one.log" 2>&1) || fail "$(tail -3 one.log)"
+	pixels one.png s.png "photons saved once"
+	one none.png s.pov +W64 +H49 +FN16 Declare=Strips_Light=0; sed 's/photons { target.*on }/ /' s.pov > dark.pov; one dark.png dark.pov +W64 +H49 +FN16
+	python3 "$here/png_pixels.py" none.png dark.png > same.txt 2>&1 && fail "the photons change nothing: nothing shown"
+	scene r.pov "$blur" "$light global_settings { radiosity { count 20 #if (Strips_Light = 2) pretrace_start 1 pretrace_end 1 always_sample off #end } }"
+	expect 0 r.pov $small --parts 2 --local 2 --light; [ -s "$(folder)/light/strips.rca" ] || fail "no radiosity"
 	scene t.pov "$blur"; expect 1 t.pov $small --parts 2 --local 1 --light; says "saved neither photons" ;;
 resume)
 	# A part that fails, and fails again, is named with the command that renders it; no picture until it is there; nothing is rendered twice.
