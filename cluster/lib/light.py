@@ -30,7 +30,7 @@ def make_light(sub):
 	if sub["frames"]:
 		words += [f"+SF{sub['frames'][0]}", f"+EF{sub['frames'][0]}"]
 	_run(sub, words + ["+SC2", "+EC2", "+SR2", "+ER2", f"+O{folder}/pixel"], log, {})
-	if not os.path.exists(f"{folder}/{PHOTONS}") or "radiosity" in _text(sub):
+	if re.search(r"\bradiosity\b", _text(sub)):
 		photons = os.path.exists(f"{folder}/{PHOTONS}")
 		_run(sub, (_words(sub, 2) if photons else words) + ["+WT1", "+GA", "+RFO", f"+RF{folder}/{RADIOSITY}", f"+O{folder}/pixel"], log, pilot)
 	if not any(os.path.exists(f"{folder}/{name}") for name in (PHOTONS, RADIOSITY)):
