@@ -9,7 +9,7 @@ cmake_minimum_required(VERSION 3.25)
 include("${CMAKE_CURRENT_LIST_DIR}/cmake/script.cmake")
 need(POVRAY SCENES OUT)
 if(NOT DEFINED ONLY)
-	set(ONLY dragons landscape city product sweep effects first-tilt show-focus show-plane denoise)
+	set(ONLY dragons landscape city product sweep effects aberrations first-tilt show-focus show-plane denoise)
 endif()
 cmake_path(GET SCENES PARENT_PATH ROOT)
 

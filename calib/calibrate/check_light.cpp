@@ -4,6 +4,7 @@
 
 #include "model/footprint.h"
 #include "model/predict.h"
+#include "solve/each_edge.h"
 
 #include <fmt/format.h>
 
@@ -47,10 +48,7 @@ double SlopeOf(const Calibration& c, size_t s, size_t p, double& weight)
 int SharpEdges(const Task& task)
 {
 	int sharp = 0;
-	for (const State& state : task.states)
-		for (const Photo& photo : state.photos)
-			for (const Edge& e : photo.edges)
-				sharp += e.blur < SHARP;
+	ForEachEdge(task, [&](size_t, size_t, const Edge& e) { sharp += e.blur < SHARP; });
 	return sharp;
 }
 
@@ -103,7 +101,7 @@ std::vector<Remark> JudgeLight(const LightCheck& light)
 			light.sharpening.value, light.sharpening.sigma) });
 	if (std::abs(light.bend.value) > BENT && std::abs(light.bend.value) > CERTAIN * light.bend.sigma)
 		remarks.push_back({ std::abs(light.bend.value) > 5 * BENT ? Grade::POOR : Grade::FAIR, fmt::format("blurred edges lie {:.3f} +- {:.3f} of their blur's radius to the {} side of where the sharp ones "
-			"say: the values are not the light that `transfer` makes of them. A tone curve in the camera does this, and biases blur and aperture. Develop the raw files with a linear curve, or say the right `transfer`",
+			"say: the values are not the light that `transfer` makes of them. A tone curve in the camera does this (and coma, a little), and biases blur and aperture. Develop the raw files with a linear curve, or say the right `transfer`",
 			std::abs(light.bend.value), light.bend.sigma, light.bend.value > 0 ? "bright" : "dark") });
 	return remarks;
 }

@@ -23,9 +23,8 @@ namespace
 void AddEffects(const Calibration& c, StateCamera& camera)
 {
 	camera.natural_vignetting = Uses(c, EffectId::VIGNETTING_NATURAL);
-	if (Uses(c, EffectId::VIGNETTING_OPTICAL))
-		for (const RimEstimate& rim : RimOf(c).rims)
-			camera.rims_mm.push_back({ rim.radius_mm.value, rim.distance_mm.value });
+	for (const tilt_lens::Rim& rim : WrittenRims(c))
+		camera.rims_mm.push_back({ rim.radius, rim.distance });
 	const auto values = [](const std::array<Estimate, 2>& e) { return TwoNumbers{ e[0].value, e[1].value }; };
 	if (Uses(c, EffectId::CHROMATIC_LATERAL))
 		camera.lateral = values(c.chromatic.lateral);

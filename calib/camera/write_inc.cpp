@@ -7,6 +7,7 @@
 #include "model/state_names.h"
 #include <tiltcal/calibrate.h>
 #include "camera/camera_block.h"
+#include "camera/camera_macros.h"
 #include "effects/effects.h"
 #include "base/files.h"
 #include "base/plain_text.h"
@@ -29,27 +30,6 @@ double NotInfinite(double x) { return std::isfinite(x) ? x : 1e30; }
 std::string Declare(const std::string& prefix, const std::string& name, const Estimate& e, const std::string& comment)
 {
 	return fmt::format("#declare {}_{} = {:.10g};   // +- {:.2g} {}\n", prefix, name, NotInfinite(e.value), e.sigma, comment);
-}
-
-std::string Vector(const Vec3<double>& v, int digits = 9)
-{
-	return fmt::format("<{0:.{3}g}, {1:.{3}g}, {2:.{3}g}>", v.x, v.y, v.z, digits);
-}
-
-/// The camera's place in the board frame: location -R^T t, look_at along R^T e_z, sky R^T e_y.
-std::string PhotoPose(const std::string& prefix, size_t number, const Photo& photo, const Pose& pose)
-{
-	double R[9];
-	ceres::AngleAxisToRotationMatrix(pose.data(), R);   // column-major: R[3 c + r]
-	const auto back = [&](double x, double y, double z)
-	{
-		return Vec3<double>{ R[0] * x + R[1] * y + R[2] * z, R[3] * x + R[4] * y + R[5] * z, R[6] * x + R[7] * y + R[8] * z };
-	};
-	const Vec3<double> location = back(-pose[3], -pose[4], -pose[5]);
-	const Vec3<double> forward = back(0, 0, 1000);
-	const std::string name = fmt::format("{}_Photo_{}", prefix, number);
-	return fmt::format("// {}\n#declare {}_Location = {};\n#declare {}_Look_At = {};\n#declare {}_Sky = {};\n", OneLine(BaseName(photo.file)),
-		name, Vector(location), name, Vector(location + forward), name, Vector(back(0, 1, 0)));
 }
 
 /// For the comment of a number.
@@ -130,19 +110,8 @@ std::string Numbers(const Calibration& c, size_t s, Distorted distorted, const s
 		declare(DeclaredDistortion(k), camera.distortion[k], sigma.distortion[k], k ? "" : "of the distortion" + Unused(c, EffectId::DISTORTION));
 	out += EffectNumbers(c, prefix);
 	out += fmt::format("#declare {}_Lens_Centre = {};   // +- {} mm, seen from the untilted one: right, up, forward\n", prefix,
-		Vector(camera.lens_centre_mm), Vector(sigma.lens_centre_mm, 2));
-	const std::vector<Photo>& photos = c.task.states[s].photos;
-	out += fmt::format("#declare {}_Photos = {};\n", prefix, photos.size());
-	for (size_t p = 0; p < photos.size(); ++p)
-		out += PhotoPose(prefix, p + 1, photos[p], g.states[s].poses[p]);
-	for (const char* const part : { "Location", "Look_At", "Sky" })
-	{
-		out += fmt::format("#declare {}_Photo_{} = array[{}] {{", prefix, part, photos.size());
-		for (size_t p = 0; p < photos.size(); ++p)
-			out += fmt::format("{} {}_Photo_{}_{}", p ? "," : "", prefix, p + 1, part);
-		out += " };\n";
-	}
-	return out;
+		SdlVector(camera.lens_centre_mm), SdlVector(sigma.lens_centre_mm, 2));
+	return out + PhotoPoses(prefix, c.task.states[s].photos, g.states[s].poses);
 }
 
 /// A plane of focus parallel to the axis, or nearly so, has no focal_plane_tilt that could be written.
@@ -158,26 +127,8 @@ std::string Macro(const Calibration& c, size_t s, const std::string& p)
 	layout.tilt = TiltOf(c.solution.states[s]);
 	layout.distortion_only_if = "TiltCal_Distortion";
 	layout.rims_only_if = "TiltCal_Rim";
-	layout.place = fmt::format("\tlocation Location\n\tdirection {}_Image_Distance*z\n\tright {:.10g}*x\n\tup {:.10g}*y\n\tsky Sky\n\tlook_at Look_At\n",
-		p, c.task.width * c.task.pitch_mm, c.task.height * c.task.pitch_mm);
-	return fmt::format(
-		"// Location is the lens centre. Look_At lies on the axis, that is, at the principal\n"
-		"// point, which the shift puts beside the picture's centre. Sky as for any camera.\n"
-		"#macro {0}(Location, Look_At, Sky)\n"
-		"{1}"
-		"#end\n\n"
-		"// The same where the camera's body stands still while the lens tilts about its pivot:\n"
-		"// Location and Look_At are those of the untilted state.\n"
-		"#macro {0}_Body(Location, Look_At, Sky)\n"
-		"\t#local Z = vnormalize(Look_At - Location);\n"
-		"\t#local X = vnormalize(vcross(Sky, Z));\n"
-		"\t#local Move = {0}_Lens_Centre.x * X + {0}_Lens_Centre.y * vcross(Z, X) + {0}_Lens_Centre.z * Z;\n"
-		"\t{0}(Location + Move, Look_At + Move, Sky)\n"
-		"#end\n\n"
-		"// The camera of this state's photograph N (1, 2, ...), in the board's frame.\n"
-		"#macro {0}_Pose(N)\n"
-		"\t{0}({0}_Photo_Location[N - 1], {0}_Photo_Look_At[N - 1], {0}_Photo_Sky[N - 1])\n"
-		"#end\n", p, CameraBlockText(CameraOfState(c, s), DeclaredNumbers(p), layout));
+	layout.place = MacroPlace(p, c.task.width * c.task.pitch_mm, c.task.height * c.task.pitch_mm);
+	return CameraMacros(p, "the lens centre", CameraBlockText(CameraOfState(c, s), DeclaredNumbers(p), layout));
 }
 
 }

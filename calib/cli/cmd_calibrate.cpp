@@ -43,7 +43,7 @@ struct Options
 	double circle_diameter = 0;
 	std::optional<double> pitch;
 	std::vector<std::string> untilted, tilted, fix, prior, flat_field;
-	bool any_orientation = false, untilted_free = false;
+	bool any_orientation = false, untilted_free = false, real_lens = false;
 	int edges_per_photo = 0;
 };
 
@@ -261,6 +261,7 @@ void Run(const Options& o, const std::string& command_line)
 	measure.any_orientation = o.any_orientation;
 	measure.edges_per_photo = o.edges_per_photo;
 	CalibrateOptions options;
+	options.real_lens = o.real_lens;
 	options.model = ParseModel(o.model);
 	options.poses = ParsePoses(o.poses);
 	options.refinement = ParseRefinement(o.refine);
@@ -320,6 +321,8 @@ void AddCalibrate(CLI::App& app, const std::string& command_line)
 	c->add_option("--poses", o->poses, "shared: photograph n shows the board in one pose in every state; own: not; auto: see for itself")->capture_default_str();
 	c->add_option("--refine", o->refine, "Last step, all numbers together: edges: places and blur widths of the edges; photometric: the brightness across them; "
 		"none: geometry first, then blur")->capture_default_str();
+	c->add_flag("--real-lens", o->real_lens, "Find one real lens for all states too, with its six third-order aberrations, from the places and blurs of the edges: lens-<state>.inc, to be "
+		"included in place of camera-<state>.inc, and real_lens in calibration.json. Takes about as long again");
 	c->add_option("--fix", o->fix, "NAME=VALUE: what is known exactly: focal_length, f_number, image_distance, focus_distance, aperture_diameter "
 		"(mm; untilted); blades (their number), blade_rotation (degrees, of a corner: 0 up, 90 right), blade_curvature (0 straight to 1 round); may be repeated");
 	c->add_option("--prior", o->prior, "NAME=VALUE:SIGMA: what is known about; the same names; may be repeated");
@@ -330,7 +333,7 @@ void AddCalibrate(CLI::App& app, const std::string& command_line)
 	c->add_option("--edges-per-photo", o->edges_per_photo, "Measure only N edges of every photograph, spread evenly over the board and both directions: "
 		"faster, less accurate. 0: all")->capture_default_str();
 	c->add_flag("--any-orientation", o->any_orientation, "Accept a board that stands upside down (a mirrored picture looks the same)");
-	c->add_option("--out", o->out, "Folder for calibration.json, camera-<state>.inc, overlays, report.txt and report.html (all on one page); created if missing")->required();
+	c->add_option("--out", o->out, "Folder for calibration.json, camera-<state>.inc (lens-<state>.inc), overlays, report.txt and report.html (all on one page); created if missing")->required();
 	c->footer("Example:\n  tiltcal calibrate --board 12x9 --square 25 --pitch 0.02 --untilted 'target/untilted-*.png' \\\n"
 		"      --tilted plus5='target/plus5-*.png' --tilted minus5='target/minus5-*.png' --out calibration\n\n"
 		"Photograph the board inclined by 20 to 45 degrees in several directions, with parts before and\n"

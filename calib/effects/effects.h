@@ -7,7 +7,10 @@
 
 #include <tiltcal/calibrate.h>
 
+#include "lens/optical_vignetting.h"
+
 #include <string>
+#include <vector>
 
 namespace tiltcal
 {
@@ -27,6 +30,9 @@ const FalloffAnswer& FalloffOf(const Calibration& calibration);
 
 /// The answer that tells the rim: FalloffOf, or where no rim is written that of both kinds of vignetting.
 const FalloffAnswer& RimOf(const Calibration& calibration);
+
+/// The rims that are written; mm.
+std::vector<tilt_lens::Rim> WrittenRims(const Calibration& calibration);
 
 /// One row per effect, for people: what, value, significance, held out without and with, written or not and why.
 std::string EffectsText(const Calibration& calibration);

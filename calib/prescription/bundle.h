@@ -23,8 +23,8 @@ struct TracedRay
 
 struct BundleSize
 {
-	int columns = 13, rows = 9;            ///< of pixels, to the very corners
-	int across = 15;                       ///< points across the exit pupil
+	int columns = 13, rows = 9;            ///< of pixels, in the middles of as many equal parts of the picture
+	int across = 11;                       ///< points across the exit pupil
 	double reach = 1.1;                    ///< how far from the axis these go, in paraxial radii of the exit pupil: the real one wanders
 	Rims rims = Rims::CUT;
 };

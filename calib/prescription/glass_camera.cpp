@@ -2,6 +2,8 @@
 
 #include "prescription/glass_camera.h"
 
+#include "model/thin_lens_of_real.h"
+
 namespace tiltcal
 {
 
@@ -57,8 +59,7 @@ StateCamera CameraOfGlass(const GlassCameras& made, size_t s)
 	c.natural_vignetting = true;
 	for (const GlassRim& rim : made.rims.rims)
 		c.rims_mm.push_back({ rim.rim.radius, rim.rim.distance });
-	// |q + e_z / w| of the thin lens that stands for one of power 1/f with these pupils (MODEL.md, Real lenses).
-	const double power = m * fit.lens.power - (m - 1) * frame.axis.z / c.image_distance_mm;
+	const double power = PowerOfThinLens(m, fit.lens.power, frame.axis.z, c.image_distance_mm);
 	c.focal_length_mm = 1 / power;
 	c.focus_distance_mm = 1 / (power * frame.axis.z - 1 / c.image_distance_mm);
 	c.lens_centre_mm = entrance - GlassFrame(made.task.glass, untilted).OnAxis(made.paraxial.entrance_pupil);

@@ -37,12 +37,9 @@ struct GlassCameras
 /// Traces and fits. Throws Error (EXIT_REFUSED) where the glass has no focal length, no ray comes through, or the function folds.
 GlassCameras MakeGlassCameras(const GlassTask& task);
 
-/// The camera of a state: its linear part, opening and rims; the aberrations are LensWords'. lens_centre_mm is counted from
+/// The camera of a state: its linear part, opening and rims; the aberrations are written beside it (camera/real_lens_words.h). lens_centre_mm is counted from
 /// the entrance pupil (near the axis) of the untilted lens with the same sensor.
 StateCamera CameraOfGlass(const GlassCameras& cameras, size_t state);
-
-/// The words `pupil_magnification` and `aberrations` of the tilt_lens block, indented by two tabs.
-std::string LensWords(const FittedLens& lens, int terms);
 
 /// camera-<state>.inc: #declares, the camera as a macro TiltCal_<state>(Location, Look_At, Sky), and TiltCal_<state>_Body.
 std::string GlassInc(const GlassCameras& cameras, size_t state);

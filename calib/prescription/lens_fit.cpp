@@ -2,6 +2,7 @@
 
 #include "prescription/lens_fit.h"
 
+#include "solve/jet_value.h"
 #include "solve/least_squares.h"
 
 #include <ceres/autodiff_cost_function.h>
@@ -52,11 +53,6 @@ RealLens<T> MakeLens(const T* linear, const T* c, const T& radius)
 	lens.aberrations.radius = radius;
 	return lens;
 }
-
-double ValueOf(double x) { return x; }
-
-template<int N>
-double ValueOf(const ceres::Jet<double, N>& x) { return x.a; }
 
 template<typename T>
 Aberrations<double> ValuesOf(const Aberrations<T>& a)

@@ -17,7 +17,7 @@ namespace
 {
 
 /// The lattice of the pupil, wide enough for a pupil that wanders by half its radius.
-const int ACROSS = 45;
+const int ACROSS = 35;
 const double REACH = 1.5;
 
 /// Of the rays over the picture: what a rim must cut to be worth its place.

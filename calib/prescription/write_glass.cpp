@@ -5,6 +5,8 @@
 #include "base/files.h"
 #include "base/plain_text.h"
 #include "camera/camera_block.h"
+#include "camera/camera_macros.h"
+#include "camera/real_lens_words.h"
 #include "lens/words.h"
 #include "model/projection.h"
 
@@ -23,11 +25,9 @@ using tilt_lens::ThirdOrderTerms;
 
 const double PER_MILLE = 1000;
 
-double Number(double value) { return std::isfinite(value) ? value + 0. : 1e30; }
-
 std::string Declare(const std::string& prefix, const char* name, double value, const char* unit)
 {
-	return fmt::format("#declare {}_{} = {:.10g};   // {}\n", prefix, name, Number(value), unit);
+	return fmt::format("#declare {}_{} = {:.10g};   // {}\n", prefix, name, SdlNumber(value), unit);
 }
 
 std::string Declares(const StateCamera& c, const std::string& prefix)
@@ -83,33 +83,14 @@ std::string StatesText(const GlassCameras& made)
 
 }
 
-std::string LensWords(const FittedLens& fit, int terms)
-{
-	const double f = 1 / fit.lens.power;
-	std::string out = fmt::format("\t\tpupil_magnification {:.10g}\n\t\taberrations {{\n\t\t\tfocal_length {:.10g}  f_stop {:.10g}\n", fit.lens.pupil_magnification, f,
-		f / (2 * fit.lens.aberrations.radius));
-	const auto per_mille = [&](int k) { return PER_MILLE * fit.lens.aberrations.c[k] / f + 0.; };
-	for (int k = 0; k < ThirdOrderTerms; ++k)
-		out += fmt::format("\t\t\t{} {:.10g}\n", tilt_lens::AberrationWords[k], per_mille(k));
-	if (terms > ThirdOrderTerms)
-	{
-		out += fmt::format("\t\t\t{} {{", tilt_lens::AberrationWords[ThirdOrderTerms]);
-		for (int k = ThirdOrderTerms; k < AberrationTerms; ++k)
-			out += fmt::format("{} {:.10g}", k > ThirdOrderTerms ? "," : "", per_mille(k));
-		out += " }\n";
-	}
-	return out + "\t\t}\n";
-}
-
 std::string GlassInc(const GlassCameras& made, size_t s)
 {
 	const StateCamera c = CameraOfGlass(made, s);
 	const std::string p = "TiltCal_" + c.state;
 	BlockLayout layout;
-	layout.lens_words = LensWords(made.Lens(), made.task.terms);
+	layout.lens_words = RealLensWords(made.Lens().lens, made.task.terms);
 	layout.rims_only_if = c.rims_mm.empty() ? "" : "TiltCal_Rim";
-	layout.place = fmt::format("\tlocation Location\n\tdirection {}_Image_Distance*z\n\tright {:.10g}*x\n\tup {:.10g}*y\n\tsky Sky\n\tlook_at Look_At\n", p,
-		c.width * c.pitch_mm, c.height * c.pitch_mm);
+	layout.place = MacroPlace(p, c.width * c.pitch_mm, c.height * c.pitch_mm);
 	std::string out = fmt::format(
 		"// camera-{}.inc, written by tiltcal {} from the prescription {}. World unit: 1 mm.\n"
 		"// Render at {} x {} pixels or any size of this aspect ratio.\n"
@@ -125,12 +106,7 @@ std::string GlassInc(const GlassCameras& made, size_t s)
 		"#macro {0}(Location, Look_At, Sky)\n{1}#end\n\n"
 		"// The same where the camera's body stands still while the lens tilts about its pivot: Location and Look_At are those of the\n"
 		"// untilted lens, Location its entrance pupil near the axis.\n"
-		"#macro {0}_Body(Location, Look_At, Sky)\n"
-		"\t#local Z = vnormalize(Look_At - Location);\n"
-		"\t#local X = vnormalize(vcross(Sky, Z));\n"
-		"\t#local Move = {0}_Lens_Centre.x * X + {0}_Lens_Centre.y * vcross(Z, X) + {0}_Lens_Centre.z * Z;\n"
-		"\t{0}(Location + Move, Look_At + Move, Sky)\n"
-		"#end\n", p, CameraBlockText(c, DeclaredNumbers(p), layout));
+		"{2}", p, CameraBlockText(c, DeclaredNumbers(p), layout), BodyMacro(p));
 }
 
 std::string GlassReport(const GlassCameras& made)
@@ -156,7 +132,11 @@ std::string GlassReport(const GlassCameras& made)
 		out += fmt::format("  further rims, which the camera has no room for, would cut {:.2f} %\n", 100 * made.rims.left_out);
 	out += fmt::format("  light against the glass's: {:.2f} % RMS, at most {:+.2f} % at pixel {:.0f}, {:.0f} of {}\n\n", 100 * made.rims.rms_light, 100 * made.rims.worst_light,
 		made.rims.worst_pixel[0], made.rims.worst_pixel[1], made.task.states[made.rims.worst_state].name);
-	return out + "states\n" + StatesText(made) +
+	out += "states\n" + StatesText(made);
+	if (made.Lens().rms_mm > made.task.sensor.pitch_mm)
+		out += fmt::format("\nThe camera's rays are more than a pixel off: what it lacks are aberrations of higher order.{}\n",
+			made.task.terms < AberrationTerms ? " Sixteen numbers leave less." : " A smaller opening or a narrower picture has less of them.");
+	return out +
 		"\nNot in it: dispersion, diffraction, reflections, and how far a built lens is from its table.\n";
 }
 

@@ -5,6 +5,7 @@
 #include "model/focus_words.h"
 #include "model/names.h"
 #include "lens/angles.h"
+#include "lens/words.h"
 #include "model/projection.h"
 #include <tiltcal/calibrate.h>
 #include "effects/effects.h"
@@ -250,6 +251,39 @@ Json CovarianceJson(const NamedCovariance& c)
 	return json;
 }
 
+Json RealLensJson(const Calibration& c)
+{
+	const RealLens& lens = *c.real_lens;
+	Json json;
+	if (!lens.failure.empty())
+	{
+		json["failure"] = lens.failure;
+		return json;
+	}
+	Put(json, "focal_length", "_mm", lens.focal_length_mm);
+	Put(json, "aperture_diameter", "_mm", lens.aperture_diameter_mm);
+	Put(json, "pupil_magnification", "", lens.pupil_magnification);
+	Put(json, "psf_floor_squared", "_px2", lens.psf_floor_squared);
+	json["f_stop_of_aberrations"] = 0.5 * lens.focal_length_mm.value / lens.radius_mm;
+	for (size_t k = 0; k < lens.aberrations_mm.size(); ++k)
+		Put(json["aberrations"], tilt_lens::AberrationWords[k], "", lens.PerMille(k));
+	for (size_t s = 0; s < lens.states.size(); ++s)
+	{
+		const RealLensState& state = lens.states[s];
+		Json one{ { "name", c.task.states[s].name } };
+		Put(one, "lens_tilt", "_deg", state.lens.lens_tilt);
+		Put(one, "tilt_direction", "_deg", state.lens.tilt_direction);
+		Put(one, "exit_pupil_to_sensor", "_mm", state.image_distance_mm);
+		one["principal_point_px"] = state.principal_point;
+		one["principal_point_sigma_px"] = state.principal_point_sigma;
+		json["states"].push_back(one);
+	}
+	json["rms_place_px"] = lens.rms_place;
+	json["rms_blur_px"] = lens.rms_blur;
+	json["held_out"] = PositiveOrNull(lens.held_out);
+	return json;
+}
+
 /// Null: too few photographs.
 Json SigmasByPhotographs(const NamedCovariance& c)
 {
@@ -309,6 +343,8 @@ std::string CalibrationJson(const Calibration& c)
 	for (const Correlation& r : c.solution.correlations)
 		json["correlations"][r.first][r.second] = r.value;
 	json["tilt_told_by"] = EvidenceJson(c);
+	if (c.real_lens)
+		json["real_lens"] = RealLensJson(c);
 	if (!c.solution.covariance.names.empty())
 	{
 		json["covariance"] = CovarianceJson(c.solution.covariance);

@@ -17,6 +17,8 @@
 #include "calibrate/verdict.h"
 #include "report/write_csv.h"
 #include "camera/write_inc.h"
+#include "camera/write_lens_inc.h"
+#include "lens/words.h"
 #include "report/write_json.h"
 
 #include <fmt/format.h>
@@ -115,6 +117,21 @@ std::string Evidence(const Calibration& c)
 	return out;
 }
 
+std::string RealLensText(const Calibration& c)
+{
+	const RealLens& lens = *c.real_lens;
+	if (!lens.failure.empty())
+		return fmt::format("\nreal lens: no answer: {}\n", lens.failure);
+	std::string out = fmt::format("\nreal lens, one for all states: focal length {} mm, aperture {} mm, pupil magnification {}\n", PlusMinus(lens.focal_length_mm, 3),
+		PlusMinus(lens.aperture_diameter_mm, 3), PlusMinus(lens.pupil_magnification, 4));
+	out += "  thousandths of the focal length:";
+	for (size_t k = 0; k < lens.aberrations_mm.size(); ++k)
+		out += fmt::format(" {} {}{}", tilt_lens::AberrationWords[k], PlusMinus(lens.PerMille(k), 3), k + 1 < lens.aberrations_mm.size() ? "," : "\n");
+	for (size_t s = 1; s < lens.states.size(); ++s)
+		out += fmt::format("  {}: tilt {} degrees towards {}\n", c.task.states[s].name, PlusMinus(lens.states[s].lens.lens_tilt, 3), PlusMinus(lens.states[s].lens.tilt_direction, 2));
+	return out + fmt::format("  places of edges fit to {:.3f} px, their blurs to {:.3f} px\n", lens.rms_place, lens.rms_blur);
+}
+
 std::string VerdictText(const Verdict& verdict)
 {
 	std::string out = fmt::format("\nverdict: {}\n", NameOf(verdict.grade));
@@ -183,6 +200,8 @@ std::string SummaryTable(const Calibration& c)
 		out += Evidence(c);
 	if (c.compared)
 		out += Comparison(c);
+	if (c.real_lens)
+		out += RealLensText(c);
 	if (c.solution.model != Model::PAPER)
 		out += VerdictText(c.verdict);
 	return out;
@@ -205,6 +224,8 @@ void WriteEverything(const Calibration& c, const RunNotes& notes, const ReadGrey
 		}
 		PlotBlur(c, s, folder, set);
 		set.Text(Join(folder, "camera-" + c.task.states[s].name + ".inc"), CameraInc(c, s));
+		if (c.real_lens && c.real_lens->failure.empty())
+			set.Text(Join(folder, "lens-" + c.task.states[s].name + ".inc"), LensInc(c, s));
 	}
 	set.Text(Join(folder, "photographs.csv"), PhotographsCsv(c));
 	set.Text(Join(folder, "report.txt"), SummaryTable(c));

@@ -7,6 +7,7 @@
 #include <tiltcal/error.h>
 #include "model/footprint.h"
 #include "edge/soft_radius.h"
+#include "solve/each_edge.h"
 #include "solve/prior_cost.h"
 #include "base/robust.h"
 #include "solve/solve_geometry.h"
@@ -126,13 +127,11 @@ LensCovariance CovarianceOfPlanes(LensModel model, const Unknowns& x, double w_m
 std::vector<Observation> Observe(const Task& task, const Geometry& g)
 {
 	std::vector<Observation> all;
-	for (size_t s = 0; s < task.states.size(); ++s)
-		for (size_t p = 0; p < task.states[s].photos.size(); ++p)
-			for (const Edge& e : task.states[s].photos[p].edges)
-			{
-				const Vec3<double> P = EdgeInCamera(task, g.states[s].poses[p], e);
-				all.push_back({ s, p, P, EdgeGradient(g, s, P, e), e.blur, e.blur_sigma });
-			}
+	ForEachEdge(task, [&](size_t s, size_t p, const Edge& e)
+	{
+		const Vec3<double> P = EdgeInCamera(task, g.states[s].poses[p], e);
+		all.push_back({ s, p, P, EdgeGradient(g, s, P, e), e.blur, e.blur_sigma });
+	});
 	return all;
 }
 

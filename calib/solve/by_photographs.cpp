@@ -9,6 +9,7 @@
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 namespace tiltcal
@@ -25,6 +26,8 @@ struct Quadratic
 {
 	Eigen::MatrixXd H;
 	Eigen::VectorXd g;
+	double squares = 0;   ///< r^T r
+	int count = 0;
 };
 
 Quadratic Expand(ceres::Problem& problem, const std::vector<ceres::ResidualBlockId>& residuals, const std::vector<double*>& blocks)
@@ -39,7 +42,8 @@ Quadratic Expand(ceres::Problem& problem, const std::vector<ceres::ResidualBlock
 	for (int row = 0; row < J.num_rows; ++row)
 		for (int k = J.rows[size_t(row)]; k < J.rows[size_t(row) + 1]; ++k)
 			dense(row, J.cols[size_t(k)]) = J.values[size_t(k)];
-	return { dense.transpose() * dense, dense.transpose() * Eigen::Map<const Eigen::VectorXd>(r.data(), Eigen::Index(r.size())) };
+	const Eigen::Map<const Eigen::VectorXd> residual(r.data(), Eigen::Index(r.size()));
+	return { dense.transpose() * dense, dense.transpose() * residual, residual.squaredNorm(), int(r.size()) };
 }
 
 /// Without the last unknowns, which follow the others.
@@ -50,7 +54,8 @@ Quadratic Reduced(const Quadratic& q, int kept)
 		return q;
 	const Eigen::LDLT<Eigen::MatrixXd> solve(q.H.bottomRightCorner(own, own));
 	const Eigen::MatrixXd across = q.H.topRightCorner(kept, own);
-	return { q.H.topLeftCorner(kept, kept) - across * solve.solve(across.transpose()), q.g.head(kept) - across * solve.solve(q.g.tail(own)) };
+	return { q.H.topLeftCorner(kept, kept) - across * solve.solve(across.transpose()), q.g.head(kept) - across * solve.solve(q.g.tail(own)),
+		q.squares - q.g.tail(own).dot(solve.solve(q.g.tail(own))), q.count };
 }
 
 /// Free blocks that are no photograph's pose, in the order in which residuals name them: Ceres's own order is that of their addresses.
@@ -107,8 +112,14 @@ Eigen::MatrixXd FromTangent(const ceres::Problem& problem, const std::vector<dou
 	return all;
 }
 
+struct LeftOutEach
+{
+	Eigen::MatrixXd covariance;
+	double held_out;
+};
+
 /// Of the steps that leaving out each photograph makes. `total`: all photographs and what else is known.
-std::optional<Eigen::MatrixXd> Jackknife(const std::vector<Quadratic>& each, const Quadratic& total, const std::vector<PhotographBlocks>& photographs)
+std::optional<LeftOutEach> Jackknife(const std::vector<Quadratic>& each, const Quadratic& total, const std::vector<PhotographBlocks>& photographs)
 {
 	const Eigen::LLT<Eigen::MatrixXd> root(total.H);
 	if (root.info() != Eigen::Success)
@@ -118,6 +129,7 @@ std::optional<Eigen::MatrixXd> Jackknife(const std::vector<Quadratic>& each, con
 		in_group[p.group] += 1;
 	const auto n = total.g.size();
 	Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, n);
+	double squares = 0, count = 0;
 	for (size_t i = 0; i < each.size(); ++i)
 	{
 		// Whitened by `total`, so that an eigenvalue is the part of a direction's knowledge that this photograph brings.
@@ -128,14 +140,17 @@ std::optional<Eigen::MatrixXd> Jackknife(const std::vector<Quadratic>& each, con
 			return std::nullopt;
 		const Eigen::VectorXd r = root.matrixL().solve(each[i].g);
 		const Eigen::VectorXd step = eigen.eigenvectors() * ((eigen.eigenvectors().transpose() * r).array() / (1 - eigen.eigenvalues().array())).matrix();
+		// Its residuals there: the others' minimum lies at `step` in these coordinates.
+		squares += each[i].squares + 2 * r.dot(step) + step.dot(part * step);
+		count += each[i].count;
 		sum += (1 - 1 / in_group[photographs[i].group]) * step * step.transpose();
 	}
-	return Eigen::MatrixXd(root.matrixU().solve(Eigen::MatrixXd(root.matrixU().solve(sum).transpose())));
+	return LeftOutEach{ root.matrixU().solve(Eigen::MatrixXd(root.matrixU().solve(sum).transpose())), std::sqrt(squares / std::max(count, 1.0)) };
 }
 
 }
 
-CovarianceByPhotographs::CovarianceByPhotographs(const ceres::Problem& of, const std::vector<double*>& shared, Eigen::MatrixXd of_shared) : problem(of), c(std::move(of_shared))
+CovarianceByPhotographs::CovarianceByPhotographs(const ceres::Problem& of, const std::vector<double*>& shared, Eigen::MatrixXd of_shared, double rms) : problem(of), c(std::move(of_shared)), held_out(rms)
 {
 	int at = 0;
 	for (const double* b : shared)
@@ -168,7 +183,7 @@ std::optional<CovarianceByPhotographs> JackknifeOverPhotographs(ceres::Problem& 
 	int size = 0;
 	for (const double* b : shared)
 		size += problem.ParameterBlockTangentSize(b);
-	Quadratic total{ Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size) };
+	Quadratic total{ Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size), 0, 0 };
 	// Priors.
 	if (const std::vector<ceres::ResidualBlockId> others = Others(residuals, photographs); !others.empty())
 		total = Expand(problem, others, shared);
@@ -181,11 +196,11 @@ std::optional<CovarianceByPhotographs> JackknifeOverPhotographs(ceres::Problem& 
 		each.push_back(Reduced(Expand(problem, p.residuals, blocks), size));
 		total.H += each.back().H;
 	}
-	const std::optional<Eigen::MatrixXd> tangent = Jackknife(each, total, photographs);
-	if (!tangent)
+	const std::optional<LeftOutEach> left_out = Jackknife(each, total, photographs);
+	if (!left_out)
 		return std::nullopt;
 	const Eigen::MatrixXd out = FromTangent(problem, shared);
-	return CovarianceByPhotographs(problem, shared, out * *tangent * out.transpose());
+	return CovarianceByPhotographs(problem, shared, out * left_out->covariance * out.transpose(), left_out->held_out);
 }
 
 }

@@ -28,15 +28,19 @@ struct PhotographBlocks
 class CovarianceByPhotographs
 {
 public:
-	CovarianceByPhotographs(const ceres::Problem& problem, const std::vector<double*>& shared, Eigen::MatrixXd of_shared);
+	CovarianceByPhotographs(const ceres::Problem& problem, const std::vector<double*>& shared, Eigen::MatrixXd of_shared, double held_out);
 
 	/// Of these blocks, one after the other; 0 for those that are held or belong to one photograph.
 	Eigen::MatrixXd Of(const std::vector<const double*>& blocks) const;
+
+	/// RMS residual of the photographs, each predicted by the others, its pose its own.
+	double HeldOut() const { return held_out; }
 
 private:
 	const ceres::Problem& problem;
 	std::map<const double*, int> first;
 	Eigen::MatrixXd c;
+	double held_out;
 };
 
 /// The jackknife over photographs, a group at a time (Efron and Stein, "The jackknife estimate of variance", 1981), linear about the

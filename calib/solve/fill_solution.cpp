@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 namespace tiltcal
 {
@@ -93,20 +94,30 @@ void FillSolution(const Task& task, const Geometry& g, const BlurFit& fit, const
 	out.focal_length = out.states[0].focal_length;
 }
 
+namespace
+{
+
+template<typename Numbers>
+void Widen(const Numbers& other, Numbers& own, std::initializer_list<Estimate Numbers::*> numbers)
+{
+	for (Estimate Numbers::*number : numbers)
+		(own.*number).sigma = std::max((own.*number).sigma, (other.*number).sigma);
+}
+
+}
+
+void WidenSigmas(const StateLens& other, StateLens& own)
+{
+	Widen(other, own, { &StateLens::lens_tilt, &StateLens::focal_plane_tilt, &StateLens::tilt_direction, &StateLens::focus_distance, &StateLens::focal_length });
+	own.q_sigma = { std::max(own.q_sigma.x, other.q_sigma.x), std::max(own.q_sigma.y, other.q_sigma.y), std::max(own.q_sigma.z, other.q_sigma.z) };
+}
+
 void WidenSigmas(const Solution& by_photographs, Solution& out)
 {
-	const auto widen = [](const Estimate& other, Estimate& own) { own.sigma = std::max(own.sigma, other.sigma); };
-	for (Estimate Solution::*number : { &Solution::w_mm, &Solution::aperture_diameter, &Solution::focus_distance, &Solution::focal_length, &Solution::psf_floor_px,
-			&Solution::psf_floor_squared, &Solution::field_curvature, &Solution::tangential_curvature, &Solution::sagittal_curvature })
-		widen(by_photographs.*number, out.*number);
+	Widen(by_photographs, out, { &Solution::w_mm, &Solution::aperture_diameter, &Solution::focus_distance, &Solution::focal_length, &Solution::psf_floor_px,
+		&Solution::psf_floor_squared, &Solution::field_curvature, &Solution::tangential_curvature, &Solution::sagittal_curvature });
 	for (size_t s = 0; s < out.states.size(); ++s)
-	{
-		const StateLens& other = by_photographs.states[s];
-		StateLens& own = out.states[s];
-		for (Estimate StateLens::*number : { &StateLens::lens_tilt, &StateLens::focal_plane_tilt, &StateLens::tilt_direction, &StateLens::focus_distance, &StateLens::focal_length })
-			widen(other.*number, own.*number);
-		own.q_sigma = { std::max(own.q_sigma.x, other.q_sigma.x), std::max(own.q_sigma.y, other.q_sigma.y), std::max(own.q_sigma.z, other.q_sigma.z) };
-	}
+		WidenSigmas(by_photographs.states[s], out.states[s]);
 	const NamedCovariance& c = by_photographs.covariance;
 	for (const std::string& name : out.covariance.names)
 	{

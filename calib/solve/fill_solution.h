@@ -15,6 +15,7 @@ void FillSolution(const Task& task, const Geometry& geometry, const BlurFit& fit
 
 /// Every sigma becomes the larger of its own and the one by photographs, and NamedCovariance receives those.
 void WidenSigmas(const Solution& by_photographs, Solution& out);
+void WidenSigmas(const StateLens& by_photographs, StateLens& out);
 
 /// Throws Refused where aperture, focus or a tilt are not determined, saying what to photograph.
 void RefuseUndetermined(const Task& task, const BlurFit& fit, const Solution& solution);

@@ -4,7 +4,10 @@
 
 #include "model/lens_model.h"
 #include <tiltcal/photo.h>
+#include "base/robust.h"
+#include "solve/block_covariance.h"
 #include "solve/by_photographs.h"
+#include "solve/each_edge.h"
 #include "solve/edge_cost.h"
 #include "solve/prior_cost.h"
 #include "solve/solve_geometry.h"
@@ -38,15 +41,6 @@ std::vector<double*> Pointers(const EdgeBlocks<double>& b)
 	for (const double* block : { b.w_px, b.distortion, b.principal_point, b.pose, b.d, b.floor_squared, b.power, b.curvature, b.state, b.lens_centre, b.pupil_magnification })
 		all.push_back(const_cast<double*>(block));
 	return all;
-}
-
-template<typename Each>
-void ForEachEdge(const Task& task, Each each)
-{
-	for (size_t s = 0; s < task.states.size(); ++s)
-		for (size_t p = 0; p < task.states[s].photos.size(); ++p)
-			for (const Edge& e : task.states[s].photos[p].edges)
-				each(s, p, e);
 }
 
 EdgeWeights WeightsOf(const JointFit& fit, const Edge& e)
@@ -150,57 +144,18 @@ std::vector<SigmaOf> GeometryBlocks(Geometry& g)
 	return blocks;
 }
 
-/// Covariances of a problem's blocks, 0 for those that are held.
-class BlockCovariance
+}
+
+ModelError ErrorOf(const std::vector<std::array<double, 2>>& residuals)
 {
-public:
-	/// Fails on a singular problem, which is the answer wanted there.
-	explicit BlockCovariance(ceres::Problem& to_judge) : problem(to_judge), covariance([] { ceres::Covariance::Options o; o.algorithm_type = ceres::SPARSE_QR; return o; }()) {}
-
-	bool Compute(const std::vector<const double*>& together, const std::vector<SigmaOf>& alone)
+	const auto scale = [&](size_t k)
 	{
-		std::vector<std::pair<const double*, const double*>> pairs;
-		for (size_t i = 0; i < together.size(); ++i)
-			for (size_t j = i; j < together.size(); ++j)
-				if (Free(together[i]) && Free(together[j]))
-					pairs.emplace_back(together[i], together[j]);
-		for (const SigmaOf& a : alone)
-			if (Free(a.block))
-				pairs.emplace_back(a.block, a.block);
-		return covariance.Compute(pairs, &problem);
-	}
-
-	Eigen::MatrixXd Of(const double* a, const double* b) const
-	{
-		Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> c = Eigen::MatrixXd::Zero(problem.ParameterBlockSize(a), problem.ParameterBlockSize(b));
-		if (Free(a) && Free(b))
-			covariance.GetCovarianceBlock(a, b, c.data());
-		return c;
-	}
-
-	/// Of all of them, one after the other.
-	Eigen::MatrixXd Of(const std::vector<const double*>& blocks) const
-	{
-		int n = 0;
-		for (const double* block : blocks)
-			n += problem.ParameterBlockSize(block);
-		Eigen::MatrixXd all(n, n);
-		for (int i = 0, row = 0; i < int(blocks.size()); row += problem.ParameterBlockSize(blocks[size_t(i)]), ++i)
-			for (int j = 0, column = 0; j < int(blocks.size()); column += problem.ParameterBlockSize(blocks[size_t(j)]), ++j)
-			{
-				const double *a = blocks[size_t(i)], *b = blocks[size_t(j)];
-				all.block(row, column, problem.ParameterBlockSize(a), problem.ParameterBlockSize(b)) = i <= j ? Of(a, b) : Eigen::MatrixXd(Of(b, a).transpose());
-			}
-		return all;
-	}
-
-private:
-	bool Free(const double* block) const { return !problem.IsParameterBlockConstant(block); }
-
-	ceres::Problem& problem;
-	ceres::Covariance covariance;
-};
-
+		std::vector<double> r;
+		for (const auto& residual : residuals)
+			r.push_back(residual[k]);
+		return RobustSigma(std::move(r));
+	};
+	return { std::max(scale(0), 0.002), std::max(scale(1), 0.01) };
 }
 
 std::vector<std::array<double, 2>> JointFit::Residuals(const Geometry& geometry, const Unknowns& x) const
@@ -242,7 +197,10 @@ std::optional<JointCovariance> JointFit::Covariance(Geometry& g, Unknowns& x) co
 	BlockCovariance covariance(problem);
 	const std::vector<const double*> lens = LensBlocks(g, x);
 	const std::vector<SigmaOf> geometry = GeometryBlocks(g);
-	if (!covariance.Compute(lens, geometry))
+	std::vector<const double*> alone;
+	for (const SigmaOf& wanted : geometry)
+		alone.push_back(wanted.block);
+	if (!covariance.Compute(lens, alone))
 		return std::nullopt;
 
 	double cost = 0;

@@ -24,6 +24,9 @@ struct ModelError
 	double offset = 0.1, blur = 0.3;
 };
 
+/// Of such residuals as JointFit::Residuals gives.
+ModelError ErrorOf(const std::vector<std::array<double, 2>>& residuals);
+
 /// Of the edges, taken for independent; and by what the photographs say against each other (solve/by_photographs.h), where they can.
 struct JointCovariance
 {

@@ -4,7 +4,6 @@
 
 #include "model/lens_model.h"
 #include "solve/fill_solution.h"
-#include "base/robust.h"
 #include "solve/solve_geometry.h"
 
 #include "lens/optics.h"
@@ -17,18 +16,6 @@ namespace tiltcal
 
 namespace
 {
-
-ModelError ErrorOf(const std::vector<std::array<double, 2>>& residuals)
-{
-	const auto scale = [&](size_t k)
-	{
-		std::vector<double> r;
-		for (const auto& residual : residuals)
-			r.push_back(residual[k]);
-		return RobustSigma(std::move(r));
-	};
-	return { std::max(scale(0), 0.002), std::max(scale(1), 0.01) };
-}
 
 void SetNormals(const JointFit& fit, const Unknowns& x, Geometry& g)
 {

@@ -184,7 +184,7 @@ void Parser::Parse_Tilt_Lens_Fifth_Order(double *numbers)
 		Get_Token();
 		Unget_Token();
 		if (Token.Token_Id == RIGHT_CURLY_TOKEN)
-			Error("tilt_lens: fifth_order takes %d numbers, but has %d.", tilt_lens::FifthOrderTerms, i);
+			Error("tilt_lens: fifth_order takes %d numbers, with commas between, but has %d.", tilt_lens::FifthOrderTerms, i);
 		numbers[i] = Parse_Float();
 		Parse_Comma();
 	}

@@ -112,11 +112,11 @@ bool TracePixel::InteriorTouchesTiltLens()
 		// square around the lens on one side has the lens on that side.
 		if((dynamic_cast<Plane *>(*object) == NULL) || !(*object)->Clip.empty())
 			return true;
+		const DBL reach = 1.01 * lens.reach;
 		int inside = 0;
 		for(int corner = 0; corner < 4; corner++)
 		{
-			const DBL reach = 1.01 * lens.reach;
-		const Vec3d offset = ((corner & 1) ? reach : -reach) * lens.lens_x + ((corner & 2) ? reach : -reach) * lens.lens_y;
+			const Vec3d offset = ((corner & 1) ? reach : -reach) * lens.lens_x + ((corner & 2) ? reach : -reach) * lens.lens_y;
 			VECTOR point = { camera.Location[X] + offset.x, camera.Location[Y] + offset.y, camera.Location[Z] + offset.z };
 			inside += (*object)->Inside(point, threadData) ? 1 : 0;
 		}

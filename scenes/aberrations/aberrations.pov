@@ -4,9 +4,8 @@
 #version 3.7;
 global_settings { assumed_gamma 1 }
 #ifndef (Effect) #declare Effect = max(1, frame_number); #end
-#ifndef (Samples) #declare Samples = 1024; #end
+#ifndef (Samples) #declare Samples = 256; #end
 
-#declare Night = Effect <= 4;
 camera {
 	tilt_lens {
 		aperture_diameter 0.8
@@ -16,7 +15,7 @@ camera {
 			#case (2) aberrations { f_stop 1.6  spherical 1.1 } #break
 			#case (3) aberrations { f_stop 1.6  spherical -1.6 } #break
 			#case (4) aberrations { f_stop 1.6  spherical -3 } #break
-			#case (5) aberrations { f_stop 1.6  coma -9 } #break
+			#case (5) aberrations { f_stop 1.6  coma -12 } #break
 			#case (6) aberrations { f_stop 1.6  astigmatism 40 curvature -5 }  vignetting optical 0.5, 0.9, 0.38, -0.7 #break
 		#end
 	}
@@ -46,19 +45,19 @@ camera {
 
 #if (Effect = 5)
 	// The lights themselves, in focus all over the picture: a far shore, and stars.
-	#for (I, 1, 70)
+	#for (I, 1, 45)
 		#local Tone = rand(R);
-		Light(<(rand(R) - 0.5)*50, 1.5 + (rand(R)*1.0 + 0.03)*16, 40>, 0.05, (Tone < 0.5 ? <0.8, 0.9, 1> : <1, 0.9, 0.75>), 6 + 22*pow(rand(R), 3))
+		Light(<(rand(R) - 0.5)*50, 1.5 + (rand(R)*1.0 + 0.03)*14, 40>, 0.06, (Tone < 0.5 ? <0.8, 0.9, 1> : <1, 0.9, 0.75>), 6 + 22*pow(rand(R), 3))
 	#end
-	#for (I, 1, 46)
+	#for (I, 1, 40)
 		#local Tone = rand(R);
-		#local Where = <(rand(R) - 0.5)*48, 1.2 - 3.0*rand(R), 40>;
+		#local Where = <(rand(R) - 0.5)*48, 0.9 - 9*pow(rand(R), 2), 40>;
 		Light(Where, 0.07, (Tone < 0.6 ? <1, 0.62, 0.25> : (Tone < 0.75 ? <1, 0.25, 0.15> : <0.8, 1, 0.9>)), 22)
 	#end
-	plane { -z, -60 pigment { gradient y color_map { [0 rgb <0.05, 0.05, 0.09>] [1 rgb <0.01, 0.015, 0.04>] } scale 40 translate -2*y } finish { emission 1 diffuse 0 } }
+	plane { -z, -60 pigment { gradient y color_map { [0 rgb <0.03, 0.03, 0.05>] [1 rgb <0.006, 0.008, 0.02>] } scale 40 translate -2*y } finish { emission 1 diffuse 0 } }
 	// The shore, darker than the sky.
 	#for (I, -20, 20)
-		box { <I*1.4, -20, 41>, <I*1.4 + 0.9 + 0.5*rand(R), 1.5 - 1.2*rand(R), 42> pigment { rgb 0.01 } }
+		box { <I*1.4, -30, 41>, <I*1.4 + 1.4, 1.6 - 1.4*rand(R), 42> pigment { rgb <0.012, 0.012, 0.02> } finish { emission 1 diffuse 0 } }
 	#end
 #end
 
@@ -87,5 +86,5 @@ camera {
 		translate 0.55*y
 		scale 1.1
 	}
-	box { <-9, 0, -0.9>, <9, 0.6, 0.9> pigment { bozo color_map { [0 rgb <0.16, 0.13, 0.11>] [1 rgb <0.26, 0.21, 0.17>] } scale 0.15 } finish { diffuse 0.7 } }
+	box { <-9, -4, -0.9>, <9, 0.6, 0.9> pigment { bozo color_map { [0 rgb <0.16, 0.13, 0.11>] [1 rgb <0.26, 0.21, 0.17>] } scale 0.15 } finish { diffuse 0.7 } }
 #end

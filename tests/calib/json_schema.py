@@ -14,11 +14,11 @@ import jsonschema
 
 # Keys that a file may lack; all others are refused when they are gone.
 OPTIONAL = {
-    "blades", "priors", "correlations", "held_out_blur_px", "vignetting/optical", "vignetting/optical/rims", "vignetting/optical/second",
+    "blades", "priors", "correlations", "real_lens", "held_out_blur_px", "vignetting/optical", "vignetting/optical/rims", "vignetting/optical/second",
     "tilt_told_by/blur_alone", "tilt_told_by/geometry_alone", "board_check", "untilted_check", "photographs/0/fits_state", "photographs/0/same_as",
 }
 # Objects whose keys are names, each of which may be missing.
-MAPS = re.compile(r"^(priors|held_out_blur_px|correlations(/.*)?|covariance(/.*)?|tilt_told_by/(blur|geometry)_alone)$")
+MAPS = re.compile(r"^(priors|held_out_blur_px|correlations(/.*)?|covariance(/.*)?|sigma_by_photographs|tilt_told_by/(blur|geometry)_alone)$")
 
 
 def read(name):

@@ -57,6 +57,30 @@ TEST(Photographs, LensTiltAndDirection)
 	}
 }
 
+// Real glass, which the simulation traced: the thin lens with its bowl is four of its sigmas off, one real lens must not be beyond three.
+TEST(Photographs, TiltsOfTheRealLensAreWithinTheirSigmas)
+{
+	const Json lens = Calibration().at("real_lens");
+	ASSERT_EQ(lens.at("states").size(), 3u);
+	for (const auto& [at, truth] : { std::pair{ 1, 5.0 }, std::pair{ 2, -5.0 } })
+	{
+		const Json& state = lens.at("states")[size_t(at)];
+		const double tilt = state.at("lens_tilt_deg"), phi = state.at("tilt_direction_deg").get<double>() * M_PI / 180;
+		const double along = state.at("lens_tilt_sigma_deg"), across = state.at("tilt_direction_sigma_deg").get<double>() * M_PI / 180 * std::abs(tilt);
+		EXPECT_LT(std::abs(tilt * std::cos(phi) - truth), 3 * along);
+		EXPECT_LT(std::abs(tilt * std::sin(phi)), 3 * across);
+		// What the issue aims at for this lens, 0.02, is the sigma to have.
+		EXPECT_LT(along, 0.02);
+		EXPECT_LT(across, 0.02);
+	}
+	// A double Gauss is under-corrected in the field and has barrel distortion (photos README); both far beyond their noise.
+	for (const char* const term : { "curvature", "distortion" })
+		EXPECT_GT(std::abs(lens.at("aberrations").at(term).get<double>()), 5 * lens.at("aberrations").at(std::string(term) + "_sigma").get<double>()) << term;
+	// Each of its edges is known better than by the thin lens.
+	EXPECT_LT(lens.at("rms_place_px"), Calibration().at("rms_reprojection_px"));
+	EXPECT_LT(lens.at("rms_blur_px"), Calibration().at("rms_blur_px"));
+}
+
 TEST(Photographs, LensAndSensor)
 {
 	const Json json = Calibration();
@@ -82,7 +106,8 @@ TEST(Photographs, FieldCurvature)
 	// spot; the mean of tangential and sagittal curvature lies between that and 0, which they do on both sides.
 	const double C = json.at("field_curvature_per_mm");
 	EXPECT_NEAR(C, -0.0006, 0.0004);
-	EXPECT_LT(json.at("field_curvature_sigma_per_mm").get<double>(), 0.1 * std::abs(C));
+	// It is there: by four of its sigmas, with what the photographs say against each other.
+	EXPECT_LT(json.at("field_curvature_sigma_per_mm").get<double>(), 0.25 * std::abs(C));
 	EXPECT_NEAR((json.at("tangential_curvature_per_mm").get<double>() + json.at("sagittal_curvature_per_mm").get<double>()) / 2, C, 1e-9);
 }
 
@@ -255,6 +280,7 @@ TEST(Photographs, TheNoteSaysWhatTheIncHolds)
 
 TEST(Photographs, FilesAreThere)
 {
+	EXPECT_TRUE(std::ifstream(FOLDER + "/lens-plus5.inc")) << "--real-lens was given";
 	for (const char* const name : { "camera-untilted.inc", "camera-plus5.inc", "camera-minus5.inc", "report.txt", "report.html", "overlay-untilted-1.png", "overlay-minus5-6.png" })
 		EXPECT_GT(std::filesystem::file_size(FOLDER + "/" + name), 500u) << name;
 	std::stringstream text;

@@ -21,7 +21,6 @@ namespace
 
 using namespace tiltcal;
 
-const std::string FOLDER = PRESCRIPTIONS_FOLDER;
 
 /// A lens of two surfaces in air, its stop at the first vertex, without rims.
 Prescription Singlet(double r1, double r2, double thickness, double index, double stop_radius = 1)
@@ -34,7 +33,7 @@ Prescription Singlet(double r1, double r2, double thickness, double index, doubl
 
 Prescription Gauss45()
 {
-	const Prescription printed = ReadPrescription(FOLDER + "/double-gauss.txt");
+	const Prescription printed = ReadPrescription(DOUBLE_GAUSS);
 	return StoppedTo(printed.Scaled(45 / ParaxialOf(printed).focal_length), 2.8);
 }
 
@@ -65,9 +64,9 @@ TEST(Paraxial, BallLens)
 TEST(Paraxial, PublishedFocalLengths)
 {
 	// As printed to three decimals.
-	EXPECT_NEAR(ParaxialOf(ReadPrescription(FOLDER + "/double-gauss.txt")).focal_length, 50.358, 0.0005);
+	EXPECT_NEAR(ParaxialOf(ReadPrescription(DOUBLE_GAUSS)).focal_length, 50.358, 0.0005);
 	// Published as 50.000, for indices of more digits than these.
-	EXPECT_NEAR(ParaxialOf(ReadPrescription(FOLDER + "/cooke-triplet.txt")).focal_length, 50, 0.001);
+	EXPECT_NEAR(ParaxialOf(ReadPrescription(COOKE_TRIPLET)).focal_length, 50, 0.001);
 }
 
 TEST(Paraxial, PhotographsTruth)
@@ -128,7 +127,7 @@ TEST(Paraxial, RefusesWhatHasNoFocus)
 {
 	// Two confocal lenses: light that comes parallel leaves parallel.
 	EXPECT_THROW(ParaxialOf(Singlet(1e300, -1e300, 1, 1.5)), Error);
-	EXPECT_THROW(StoppedTo(ReadPrescription(FOLDER + "/double-gauss.txt"), 1.4), Error);
+	EXPECT_THROW(StoppedTo(ReadPrescription(DOUBLE_GAUSS), 1.4), Error);
 }
 
 // --- real rays -----------------------------------------------------------------------------------------------------------------
@@ -318,7 +317,7 @@ TEST(ParsePrescription, SaysFileLineAndWhat)
 
 TEST(ParsePrescription, DispersionByAbbeNumber)
 {
-	const Prescription lens = ReadPrescription(FOLDER + "/cooke-triplet.txt");
+	const Prescription lens = ReadPrescription(COOKE_TRIPLET);
 	const double blue = lens.AtWavelength(486.1327).surfaces[0].index, red = lens.AtWavelength(656.2725).surfaces[0].index;
 	EXPECT_NEAR((lens.surfaces[0].index - 1) / (blue - red), 60.3, 1e-9);
 	EXPECT_EQ(lens.AtWavelength(587.5618).surfaces[0].index, lens.surfaces[0].index);

@@ -4,7 +4,7 @@
 set -u
 case=$1 tiltcal=$2 photos=$3 work=$4
 rm -rf "$work" && mkdir -p "$work" && cd "$work" || exit 99
-target=$photos/target
+target=$photos/target glass=$photos/../double-gauss.txt
 
 fail() { echo "FAIL: $*"; echo "--- stdout"; cat out; echo "--- stderr"; cat err; exit 1; }
 
@@ -59,12 +59,12 @@ version) expect 0 --version; grep -Eq '^tiltcal [0-9]+\.[0-9]+\.[0-9]+$' out || 
 no_command) refuses 2 subcommand ;;
 unknown_option) calibrate 2 frobnicate "$target/untilted-1.jpg" --frobnicate ;;
 help_of_each)
-	for command in target detect calibrate pose profile export import; do
+	for command in target detect calibrate pose profile lens export import; do
 		expect 0 $command --help; prints Example; prints "Exit codes"
 	done
 	expect 0 --help
 	listed=$(sed -n '/^Subcommands:/,/^$/s/^  \([a-z]*\) .*/\1/p' out | tr '\n' ' ')
-	[ "$listed" = "target detect calibrate pose profile export import " ] || fail "subcommands: $listed" ;;
+	[ "$listed" = "target detect calibrate pose profile lens export import " ] || fail "subcommands: $listed" ;;
 missing_file) calibrate 3 nowhere.jpg "$target/nowhere.jpg" ;;
 empty_glob) calibrate 3 "no file matches" "$target/*.webp" ;;
 empty_file) : >zero.png; calibrate 3 "zero.png.*empty" zero.png ;;
@@ -227,6 +227,36 @@ target_usage)
 	refuses 2 "out" target --board 12x9 --square 25 ;;
 target_turned) # what looks the same upside down is said to
 	expect 0 target --board 12x8 --square 20 --out board.svg; says "turned by 180 degrees" ;;
+lens_files)
+	expect 0 lens "$glass" --focal-length 45 --f-number 2.8 --focus 618 --state plus5:tilt=5 --state far:focus=infinity --terms 6 --out result
+	prints "focal length 45.0000, f/2.8"; prints "sixteen numbers"; prints "rim of surface 1:"
+	[ "$(echo $(ls result))" = "camera-far.inc camera-plus5.inc lens.txt" ] || fail "files: $(ls result)"
+	grep -q '#macro TiltCal_plus5_Body(' result/camera-plus5.inc || fail "no macro"
+	! grep -q fifth_order result/camera-plus5.inc || fail "six terms only"
+	# Without --out the report alone; --back is the distance that the focus gave.
+	expect 0 lens "$glass" --scale 0.8935988484 --f-number 2.8 --back 35.6932; prints "focal length 45.0000"; prints "sensor 35.6932" ;;
+lens_usage)
+	refuses 2 "prescription" lens
+	refuses 2 "focal-length" lens "$glass" --focal-length 45 --scale 2
+	for value in 0 -1 nan; do refuses 2 "f-number" lens "$glass" --f-number=$value; done
+	refuses 2 "f/1.2" lens "$glass" --f-number 1.2
+	refuses 2 "focus" lens "$glass" --focus=-3
+	refuses 2 "size" lens "$glass" --size 1800
+	refuses 2 "terms" lens "$glass" --terms 7
+	refuses 2 "unknown" lens "$glass" --state a:tlit=5
+	refuses 2 "needs a number" lens "$glass" --state a:tilt=steep
+	refuses 2 "beyond" lens "$glass" --state a:tilt=80
+	refuses 2 "a" lens "$glass" --state a --state a
+	refuses 2 "identifier\|letter" lens "$glass" --state 5up ;;
+lens_unreadable)
+	refuses 3 missing.txt lens missing.txt
+	printf '10 2 1.5\n-10 x 1\n' >bad.txt; refuses 3 "bad.txt:2: 'x' is no number" lens bad.txt
+	: >blocked; refuses 3 blocked lens "$glass" --out blocked/lens ;;
+lens_refused)
+	printf 'stop 1 4\n-10 2 1.5\n10 0 air\n' >diverging.txt; refuses 1 diverging lens diverging.txt
+	printf 'stop 1 4\n10 2 1.5\n-10 0 air\n' >near.txt; refuses 1 "image" lens near.txt --focus 3
+	# The sensor so near and large that only grazing light would reach it.
+	refuses 1 "rays\|no ray" lens "$glass" --back 0.01 --pitch 5 ;;
 target_unwritable) : >blocked; refuses 3 blocked target --board 12x9 --square 25 --out blocked/board.pdf ;;
 pose_block)
 	camera; pose_points

@@ -1,7 +1,9 @@
 # The board, rendered through the calibrated camera at the pose of two photographs of one state: its corners must be
 # where the photograph has them. A mirrored axis, a wrong handedness or half a pixel cannot pass.
 #
-#   cmake -DTILTCAL= -DPOVRAY= -DCOMPARE=<compare_corners> -DSCENES= -DCALIBRATION= -DSTATE= -DWORK= -P board.cmake
+#   cmake -DTILTCAL= -DPOVRAY= -DCOMPARE=<compare_corners> -DSCENES= -DCALIBRATION= -DSTATE= -DWORK= [-DREAL_LENS=1] -P board.cmake
+#
+# REAL_LENS: through lens-STATE.inc, in place of camera-STATE.inc; the fourth photograph alone.
 cmake_minimum_required(VERSION 3.25)
 include("${SCENES}/cmake/script.cmake")
 
@@ -15,7 +17,15 @@ set(states_in_board_pov untilted plus5 minus5)
 
 file(REMOVE_RECURSE "${WORK}")
 file(MAKE_DIRECTORY "${WORK}")
-file(GLOB photos "${SCENES}/boxes/photos/target/${STATE}-[14].jpg") # the first is the most blurred one
+set(chosen 14) # the first is the most blurred one
+if(REAL_LENS)
+	set(chosen 4)
+	foreach(state IN LISTS states_in_board_pov)
+		configure_file("${CALIBRATION}/lens-${state}.inc" "${WORK}/camera-${state}.inc" COPYONLY)
+	endforeach()
+	set(CALIBRATION "${WORK}")
+endif()
+file(GLOB photos "${SCENES}/boxes/photos/target/${STATE}-[${chosen}].jpg")
 list(FIND states_in_board_pov "${STATE}" number)
 set(renders "")
 foreach(photo IN LISTS photos)

@@ -48,6 +48,13 @@ plain)
 	threads_and_strips "$ours" "tilt and blur"
 	grep 'Samples/Pixel:   min 16 .* max 128 ' whole.ppm.log || fail "the number of samples does not adapt: nothing shown"
 	;;
+aberrations)
+	# With what else moves or withholds rays.
+	scene 'tilt_lens { lens_tilt 12 tilt_direction 30 focal_distance 8 aperture_diameter 0.4 aberrations { spherical -2 coma 8 astigmatism 20 distortion 20
+		fifth_order { 0.5, 0, 0, 1, 0, 0, 0, 0, 0, 0 } } blades 7 vignetting optical 0.3, 0.5, 0.28, -0.6 chromatic lateral 0.002, -0.003 }' "$blur" ""
+	threads_and_strips "$ours" "aberrations"
+	grep 'Samples/Pixel:   min 16 .* max 128 ' whole.ppm.log || fail "the number of samples does not adapt: nothing shown"
+	;;
 denoise)
 	scene "$(echo "$lens" | sed 's/tilt_lens *{/tilt_lens { denoise/')" "$blur" ""
 	threads_and_strips "$ours" "tilt, blur and denoise"

@@ -183,7 +183,7 @@ int main(int argc, char** argv)
 try
 {
 	std::map<std::string, std::string> option = ReadCaseOptions(argc, argv, "--stock POVRAY --ours POVRAY --scene SCENE --work DIR");
-	const fs::path work = fs::path(option["--work"]) / "glass", scene = option["--scene"];
+	const fs::path work = fs::path(option["--work"]) / "through-glass", scene = option["--scene"];
 	fs::create_directories(work);
 	const Set s = MakeSet();
 	const Picture glass = ThroughGlass(s, scene, work, option["--stock"]);
@@ -198,14 +198,19 @@ try
 		std::printf("%s: RMS difference %.5f\n", name.c_str(), rms);
 		return rms;
 	};
+	// What is left is the noise of 256 rays and samples a pixel, as in oracle.cpp, and the fifth order: 0.0030. Without the numbers it
+	// is 0.0223, with one of the wrong sign from 0.0042 (spherical, at this small opening) to 0.027. The pupil's number moves the
+	// opening alone, by less than shows.
 	const double right = difference(numbers, "aberrations");
 	bool good = right <= 0.004;
-	good = difference({}, "none") > 2 * right && good;
+	good = difference({}, "none") > 4 * right && good;
 	for (const auto& [word, number] : numbers)
 	{
+		if (word == "pupil")
+			continue;
 		std::map<std::string, double> wrong = numbers;
 		wrong[word] = -number;
-		difference(wrong, "minus-" + word);
+		good = difference(wrong, "minus-" + word) > 1.2 * right && good;
 	}
 	return good ? 0 : 1;
 }

@@ -55,6 +55,19 @@ refusals)
 	refused colours "chromatic lateral 0.7, 0" "$at_origin" "chromatic lateral must lie between -0.5 and 0.5"
 	refused no_pupil "pupil_magnification 0" "$at_origin" "pupil_magnification must lie between 0.01 and 100"
 	refused black_bokeh "focal_distance 9" "$at_origin bokeh { pigment { rgb 0 } }" "the bokeh pigment is black all over the lens"
+	refused folds "aberrations { distortion 3000 }" "$at_origin" "the aberrations fold inside the frame: at" "Use smaller numbers"
+	refused pupil_of_none "aberrations { spherical 1e7 }" "$at_origin" "spherical of aberrations must lie between -1e6 and 1e6"
+	refused stop_of_none "aberrations { f_stop 0 coma 1 }" "$at_origin" "f_stop of aberrations must be greater than 0, but is 0"
+	misread aberration_typo "aberrations { sperical 1 }" "$at_origin" "Unknown word 'sperical' in aberrations; did you mean 'spherical'?"
+	misread aberration_twice "aberrations { spherical 1 spherical 2 }" "$at_origin" "tilt_lens: spherical of aberrations is given twice"
+	misread aberrations_twice "aberrations { coma 1 } aberrations { coma 2 }" "$at_origin" "tilt_lens: aberrations is given twice"
+	misread aberration_outside "coma 1" "$at_origin" "'coma' follows the word aberrations, as in 'aberrations { coma'"
+	misread aberration_reserved "spherical 1" "$at_origin" "'spherical' follows the word aberrations, as in 'aberrations { spherical'"
+	misread aberration_sphere "aberrations { sphere 1 }" "$at_origin" "'}' or one of the words of aberrations"
+	misread aberrations_open "aberrations coma 1" "$at_origin" "Missing { "
+	misread aberrations_unclosed "aberrations { coma 1 blades 5" "$at_origin" "'blades' is no word of aberrations; is their '}' missing before it?"
+	misread fifth_few "aberrations { fifth_order { 1, 2, 3 } }" "$at_origin" "fifth_order takes 10 numbers, with commas between, but has 3"
+	misread fifth_many "aberrations { fifth_order { 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11 } }" "$at_origin" "fifth_order takes 10 numbers, and has more"
 	# Slips of writing: what was meant, or where it belongs, not the list of all words.
 	misread typo "focal_distence 5" "$at_origin" "tilt_lens: Unknown word 'focal_distence' in the tilt_lens block; did you mean 'focal_distance'?"
 	misread semicolon "focal_distance 5;" "$at_origin" "tilt_lens: no ';' stands between the words of the block"
@@ -106,8 +119,9 @@ warnings)
 	warned focus 'show focus' '' '' "$idle show focus."
 	warned smooth 'denoise' '' '' "$idle denoise."
 	warned effects 'blades 5 field_curvature 0.1 chromatic axial 0.1, 0.1' 'bokeh { pigment { rgb 1 } }' '' "$idle field_curvature, blades, bokeh, chromatic axial."
+	warned glass 'aberrations { f_stop 4 spherical 1 coma 2 }' '' '' "$idle aberrations."
 	warned opening 'denoise blades 5 field_curvature 0.1 aperture_diameter 0.1' 'bokeh { pigment { rgb 1 } }' ''
-	warned at_work 'show plane field_curvature 0.1 chromatic lateral 0.1, 0.1 vignetting natural distortion 0.01 shift <0, 0.1> pupil_magnification 1.1' '' ''
+	warned at_work 'show plane field_curvature 0.1 chromatic lateral 0.1, 0.1 vignetting natural distortion 0.01 shift <0, 0.1> pupil_magnification 1.1 aberrations { f_stop 4 distortion 1 }' '' ''
 	# Colours apart from their alpha: only where alpha is written, and not as it is in OpenEXR.
 	fringes='tilt_lens: colours that part at the edge of what is transparent are brighter than their alpha,'
 	warned fringes 'chromatic lateral 0.1, 0.1' '' '+UA +FN' "$fringes"

@@ -2,6 +2,8 @@
 
 #include "support/thin_lens_picture.h"
 
+#include "support/srgb.h"
+
 #include <Eigen/Geometry>
 #include <opencv2/imgproc.hpp>
 
@@ -138,13 +140,6 @@ double LightOfPixel(const Scene& scene, const Pattern& pattern, const std::vecto
 		sum += pattern.light(at.x(), at.y());
 	}
 	return sum / double(inside.size());
-}
-
-float ThroughSrgb(float v)
-{
-	const double c = v <= 0 ? 0 : v >= 1 ? 1 : v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
-	const double rounded = std::round(c * 255) / 255;
-	return static_cast<float>(rounded <= 0.04045 ? rounded / 12.92 : std::pow((rounded + 0.055) / 1.055, 2.4));
 }
 
 }

@@ -13,6 +13,7 @@
 #include "lens/lens_spec.h"
 #include "lens/statistics.h"
 #include "lens/words.h"
+#include "unit/resolved_lens.h"
 
 using namespace tilt_lens;
 using testing::HasSubstr;
@@ -42,21 +43,9 @@ LensSpec Aberrated()
 	return spec;
 }
 
-TiltLens Resolved(const LensSpec& spec)
-{
-	TiltLens lens;
-	std::string error;
-	EXPECT_TRUE(ResolveTiltLens(spec, Camera, lens, error)) << error;
-	return lens;
-}
+TiltLens Resolved(const LensSpec& spec) { return ResolvedFor(spec, Camera); }
 
-std::string RefusalOf(const LensSpec& spec)
-{
-	TiltLens lens;
-	std::string error;
-	EXPECT_FALSE(ResolveTiltLens(spec, Camera, lens, error));
-	return error;
-}
+std::string RefusalOf(const LensSpec& spec) { return RefusalFor(spec, Camera); }
 
 LensRay Sent(const TiltLens& lens, const Vec3d& pixel, double u, double v)
 {

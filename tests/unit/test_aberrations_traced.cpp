@@ -4,6 +4,7 @@
 // the lens's spheres by Snell's law (support/sphere_tracer.h), in long double.
 
 #include <cmath>
+#include <cstdio>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -179,5 +180,25 @@ TEST(TracedLens, WhatTheFiveLeaveIsOfTheFifthOrder)
 			without.aberrations.c[term] = 0;
 			EXPECT_NEAR(double(left(without, 0.1L) / left(without, 0.05L)), 8, 1) << stopped.name << ", " << term;
 		}
+	}
+}
+
+// A double Gauss: the example of REFERENCE.md. US patent 2,673,491 (Tronnier), 50 mm, whose focal length is printed as 50.358.
+TEST(TracedLens, NumbersOfADoubleGauss)
+{
+	StoppedLens lens = { "double Gauss", {}, 5 };
+	const Real table[][3] = { { 29.475L, 3.760L, 1.670L }, { 84.830L, 0.120L, 1 }, { 19.275L, 4.025L, 1.670L }, { 40.770L, 3.275L, 1.699L }, { 12.750L, 5.705L, 1 },
+		{ 0, 4.500L, 1 }, { -14.495L, 1.180L, 1.603L }, { 40.770L, 6.065L, 1.658L }, { -20.385L, 0.190L, 1 }, { 437.065L, 3.220L, 1.717L }, { -39.730L, 0, 1 } };
+	for(const auto& row : table)
+		lens.surfaces.push_back({ row[0] != 0 ? 1 / row[0] : 0, row[1], row[2] });
+	const Cardinal cardinal = CardinalOf(lens.surfaces, lens.stop);
+	EXPECT_NEAR(double(cardinal.focal_length), 50.358, 0.0006) << "as printed";
+	const RealLens<Real> real = LensOfSums(lens, cardinal, cardinal.focal_length / 5.6L);
+	const double wanted[] = { -0.03, -0.04, 0.61, -0.97, 12.16 };
+	for(int i = Spherical; i <= Distortion; i++)
+	{
+		const double number = double(1000 * real.aberrations.c[i] / cardinal.focal_length);
+		std::printf("%d: %.3f\n", i, number);
+		EXPECT_NEAR(number, wanted[i], 0.0051) << "as REFERENCE.md has it, rounded";
 	}
 }

@@ -13,6 +13,7 @@
 #include "lens/lens_spec.h"
 #include "lens/optics.h"
 #include "lens/pupil_magnification.h"
+#include "unit/resolved_lens.h"
 
 using namespace tilt_lens;
 using testing::HasSubstr;
@@ -33,21 +34,9 @@ int StepsOf(const TiltLens& lens)
 	return n;
 }
 
-TiltLens Resolved(const LensSpec& spec)
-{
-	TiltLens lens;
-	std::string error;
-	EXPECT_TRUE(ResolveTiltLens(spec, Camera, lens, error)) << error;
-	return lens;
-}
+TiltLens Resolved(const LensSpec& spec) { return ResolvedFor(spec, Camera); }
 
-std::string RefusalOf(const LensSpec& spec)
-{
-	TiltLens lens;
-	std::string error;
-	EXPECT_FALSE(ResolveTiltLens(spec, Camera, lens, error));
-	return error;
-}
+std::string RefusalOf(const LensSpec& spec) { return RefusalFor(spec, Camera); }
 
 }
 

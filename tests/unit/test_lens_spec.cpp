@@ -11,6 +11,7 @@
 
 #include "lens/lens_spec.h"
 #include "lens/optics.h"
+#include "unit/resolved_lens.h"
 
 using namespace tilt_lens;
 using testing::HasSubstr;
@@ -28,13 +29,7 @@ LensSpec Spec(const std::function<void(LensSpec&)>& set = [](LensSpec&) {})
 	return s;
 }
 
-TiltLens Resolved(const LensSpec& spec, const CameraVectors& camera = Plain)
-{
-	TiltLens lens;
-	std::string error;
-	EXPECT_TRUE(ResolveTiltLens(spec, camera, lens, error)) << error;
-	return lens;
-}
+TiltLens Resolved(const LensSpec& spec, const CameraVectors& camera = Plain) { return ResolvedFor(spec, camera); }
 
 std::string ErrorOf(const LensSpec& spec, const CameraVectors& camera = Plain)
 {

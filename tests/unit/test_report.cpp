@@ -10,6 +10,7 @@
 #include "lens/optics.h"
 #include "lens/preview.h"
 #include "lens/statistics.h"
+#include "unit/resolved_lens.h"
 
 using namespace tilt_lens;
 using testing::HasSubstr;
@@ -27,10 +28,7 @@ TiltLens Resolved(double tilt, double direction, double distance, double apertur
 	spec.tilt_direction = direction;
 	spec.focal_distance = distance;
 	spec.aperture_diameter = aperture;
-	TiltLens lens;
-	std::string error;
-	EXPECT_TRUE(ResolveTiltLens(spec, Camera, lens, error)) << error;
-	return lens;
+	return ResolvedFor(spec, Camera);
 }
 
 /// Squared changes of a pixel whose variance halves with every doubling, the latest first.

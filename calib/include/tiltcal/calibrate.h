@@ -87,6 +87,7 @@ struct CalibrateOptions
 	Refinement refinement = Refinement::EDGES;
 	EffectChoice effects{};
 	Log log{};
+	bool real_lens = false;   ///< one lens with aberrations for all states too: Calibration::real_lens
 };
 
 /// Solves everything. The paper's model is always solved too, and only refused when it was the one asked for. Then vignetting

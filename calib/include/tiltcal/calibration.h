@@ -299,6 +299,34 @@ struct Verdict
 	std::vector<Remark> remarks;
 };
 
+/// How a real lens stands in a state. The image distance is from the exit pupil to the sensor, along the sensor's normal.
+struct RealLensState
+{
+	StateLens lens;                   ///< of the thin lens that stands for it near its axis (povray-patch/lens/MODEL.md, Real lenses)
+	Estimate image_distance_mm;
+	Point principal_point{}, principal_point_sigma{};   ///< of the exit pupil, px
+	std::vector<Pose> poses;          ///< camera_from_board; the camera's origin is the centre of the entrance pupil
+};
+
+/// One real lens in all states: what `real_lens` of CalibrateOptions finds. Sigmas are the larger of those by edges and by photographs.
+struct RealLens
+{
+	std::string failure;              ///< why there is none; empty when there is one
+	Estimate focal_length_mm, pupil_magnification, aperture_diameter_mm, psf_floor_squared;
+	double radius_mm = 0;             ///< of the entrance pupil, at which the aberrations are stated
+	std::array<Estimate, 6> aberrations_mm;   ///< spherical, coma, astigmatism, curvature, distortion, pupil: lens/aberrations.h
+	std::vector<RealLensState> states;
+	double rms_place = 0, rms_blur = 0;       ///< robust, px
+	double held_out = 0;              ///< RMS residual of photographs predicted by the others, in what is usual of all; 0: cannot be said
+
+	/// An aberration in thousandths of the focal length, as the scene language has it.
+	Estimate PerMille(size_t k) const
+	{
+		const double unit = 1000 / focal_length_mm.value;
+		return { unit * aberrations_mm[k].value, unit * aberrations_mm[k].sigma };
+	}
+};
+
 struct Calibration
 {
 	Task task;
@@ -312,6 +340,7 @@ struct Calibration
 	UntiltedCheck untilted_check;
 	std::vector<StateLens> blur_alone;      ///< the same before the joint refinement: blur, with the geometry held
 	GeometryAlone geometry_alone;
+	std::optional<RealLens> real_lens;      ///< where it was asked for
 	std::optional<ModelComparison> compared;   ///< when the model was to be chosen
 	Solution paper;              ///< the paper's model, always
 	Geometry paper_geometry;     ///< poses of the paper's stage 1

@@ -2,6 +2,8 @@
 
 #include "camera_light.h"
 
+#include "support/srgb.h"
+
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
@@ -14,12 +16,6 @@ namespace cameras
 
 namespace
 {
-
-double SrgbCode(double linear)
-{
-	const double v = std::clamp(linear, 0.0, 1.0);
-	return v <= 0.0031308 ? 12.92 * v : 1.055 * std::pow(v, 1 / 2.4) - 0.055;
-}
 
 /// Shot noise grows with the root of the light; the read noise does not.
 void AddNoise(cv::Mat& picture, const Light& light, unsigned seed)

@@ -3,10 +3,12 @@
 #include "closed_loop.h"
 
 #include "model/tilt_angles.h"
+#include "support/traced_picture.h"
 #include <tiltcal/error.h>
 
 #include <cmath>
 #include <filesystem>
+#include <tuple>
 
 namespace cameras
 {
@@ -33,8 +35,35 @@ void AddTilt(const Calibration& c, size_t s, const std::pair<double, double>& tr
 	a.tilt_error = std::max(a.tilt_error, (found - truth.first * along).norm());
 }
 
+/// What a pattern is behind the glass, where the thin lens's scene stands.
+synthetic::TracedScene ThroughGlass(const Camera& camera, size_t state, const synthetic::Scene& scene)
+{
+	synthetic::TracedScene traced;
+	const tiltcal::Prescription printed = tiltcal::ReadPrescription(camera.glass);
+	traced.glass = tiltcal::StoppedTo(printed.Scaled(camera.focal_length / tiltcal::ParaxialOf(printed).focal_length), camera.f_number);
+	traced.sensor = { camera.width, camera.height, camera.pitch };
+	if (state > 0)
+		std::tie(traced.state.tilt_deg, traced.state.direction_deg) = camera.tilts[state - 1];
+	traced.state.back_distance = tiltcal::FocusedBackDistance(traced.glass, tiltcal::ParaxialOf(traced.glass), camera.focus_distance);
+	traced.state.pivot = traced.glass.StopHeight();
+	traced.camera_from_board = scene.camera_from_board;
+	traced.origin = scene.origin;
+	traced.rays = 400;
+	return traced;
+}
+
+/// Of real glass the tilts are what can be told; d is that of the pupil near the axis.
+void CompareThroughGlass(const Camera& camera, const Calibration& c, Answer& a)
+{
+	a.deviations.push_back(Of("d", camera.Aperture(), c.solution.aperture_diameter));
+	for (size_t s = 1; s < c.solution.states.size(); ++s)
+		AddTilt(c, s, camera.tilts[s - 1], a);
+}
+
 void Compare(const Camera& camera, const Calibration& c, Answer& a)
 {
+	if (!camera.glass.empty())
+		return CompareThroughGlass(camera, c, a);
 	a.deviations.push_back(Of("w", camera.ImageDistance(), c.solution.w_mm));
 	a.deviations.push_back(Of("f", camera.focal_length, c.solution.focal_length));
 	a.deviations.push_back(Of("d", camera.Aperture(), c.solution.aperture_diameter));
@@ -65,11 +94,11 @@ Negatives Photograph(const Camera& camera, unsigned seed)
 	const tiltcal::Board& b = n.camera.board;
 	const synthetic::Pattern pattern = b.IsCheckerboard() ? synthetic::Checkerboard(b.columns, b.rows, b.square_mm)
 		: synthetic::Circles(b.columns, b.rows, b.square_mm, b.circle_diameter_mm, b.kind == tiltcal::TargetKind::ASYMMETRIC_CIRCLES);
-	for (const auto& scenes : states)
+	for (size_t s = 0; s < states.size(); ++s)
 	{
 		n.pictures.emplace_back();
-		for (const synthetic::Scene& scene : scenes)
-			n.pictures.back().push_back(synthetic::TakePicture(scene, pattern));
+		for (const synthetic::Scene& scene : states[s])
+			n.pictures.back().push_back(camera.glass.empty() ? synthetic::TakePicture(scene, pattern) : synthetic::TakeTracedPicture(ThroughGlass(camera, s, scene), pattern));
 	}
 	return n;
 }

@@ -21,7 +21,8 @@ struct Options
 {
 	std::vector<std::string> only, lights{ "snr200" };
 	int seeds = 1, random = 0, first = 0;
-	std::string work = "closed-loop", out;
+	std::string work = "closed-loop", out, glass;
+	double focal_length = 0, f_number = 0;
 	bool table = false;
 	double least = 0, most = HUGE_VAL;
 
@@ -34,6 +35,12 @@ struct Options
 			words += " --only '" + name + "'";
 		if (random > 0)
 			words += fmt::format(" --random {} --first {}", random, first);
+		if (!glass.empty())
+			words += " --glass " + glass;
+		if (focal_length > 0)
+			words += fmt::format(" --focal-length {:g}", focal_length);
+		if (f_number > 0)
+			words += fmt::format(" --f-number {:g}", f_number);
 		for (const std::string& light : lights)
 			words += " --light " + light;
 		return seeds == 1 ? words : words + fmt::format(" --seeds {}", seeds);
@@ -57,8 +64,13 @@ void Print(const Camera& camera, const Light& light, const Answer& a)
 		std::printf("    %s: %s\n", tiltcal::NameOf(remark.grade), remark.text.c_str());
 }
 
-void Run(const Options& o, const Camera& camera, unsigned pose_seed, std::vector<Result>& results)
+void Run(const Options& o, Camera camera, unsigned pose_seed, std::vector<Result>& results)
 {
+	camera.glass = o.glass;
+	if (o.focal_length > 0)
+		camera.focal_length = o.focal_length;
+	if (o.f_number > 0)
+		camera.f_number = o.f_number;
 	Negatives negatives;
 	try
 	{
@@ -95,6 +107,9 @@ try
 	app.add_option("--seeds", o.seeds, "Draws of the noise");
 	app.add_option("--random", o.random, "So many random cameras too");
 	app.add_option("--first", o.first, "The first of them");
+	app.add_option("--glass", o.glass, "FILE of a lens prescription: the photographs are traced through it");
+	app.add_option("--focal-length", o.focal_length, "Of all cameras, mm, in place of their own");
+	app.add_option("--f-number", o.f_number, "Of all cameras, in place of their own");
 	app.add_option("--work", o.work, "Folder for the photographs");
 	app.add_option("--out", o.out, "Page with the results, Markdown");
 	app.add_option("--least", o.least, "Exit code 1 when a smaller share of the numbers is inside 2 sigma");

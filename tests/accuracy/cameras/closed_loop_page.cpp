@@ -87,7 +87,7 @@ Coverage CoverageOfAll(const std::vector<Result>& results)
 
 void WritePage(const std::string& file, const std::string& command, const std::vector<Result>& results)
 {
-	std::string page = "# Simulated cameras, calibrated and held against the truth\n\nBy `" + command + "`: exact thin-lens photographs, developed as the light's name says, measured and calibrated. "
+	std::string page = "# Simulated cameras, calibrated and held against the truth\n\nBy `" + command + "`: exact photographs, developed as the light's name says, measured and calibrated. "
 		"Deviations are in the calibrator's own sigmas; the truth is the simulation's.\n\n"
 		"| number | inside 2 σ | | RMS, σ | mean, σ | worst, σ |\n|---|---|---|---|---|---|\n";
 	for (const auto& [kind, c] : CoverageByKind(results))

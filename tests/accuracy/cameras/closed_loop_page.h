@@ -28,7 +28,6 @@ struct Coverage
 	double Share() const { return all ? double(inside) / all : 0; }
 };
 
-
 /// Of each kind of number: w, f, d, U, tilt along, tilt across, cx, cy, k1.
 std::vector<std::pair<std::string, Coverage>> CoverageByKind(const std::vector<Result>& results);
 Coverage CoverageOfAll(const std::vector<Result>& results);

@@ -28,6 +28,9 @@ struct Camera
 	double k1 = 0;
 	bool shared_poses = false;
 	int photos = 5;                            ///< per state
+	/// A prescription's file: the photographs are traced through that glass, scaled to the focal length and stopped to the f-number, which
+	/// tilts about its stop. Poses are then chosen as for the thin lens; k1 has no meaning. Empty: the thin lens.
+	std::string glass{};
 
 	double ImageDistance() const;
 	double Aperture() const { return focal_length / f_number; }

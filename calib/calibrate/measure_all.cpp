@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "calibrate/measure_all.h"
+
+#include "calibrate/exif_check.h"
+#include "calibrate/quiet.h"
+#include "measure/bright_patches.h"
+#include "measure/measure.h"
+#include "model/state_names.h"
+#include "picture/image_io.h"
+#include <tiltcal/calibrate.h>
+#include <tiltcal/error.h>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <string_view>
+
+namespace tiltcal
+{
+
+namespace
+{
+
+void LogPhoto(const Photo& photo, size_t number, size_t total, const Log& log)
+{
+	double least = photo.edges.empty() ? 0 : 1e9, most = 0;
+	for (const Edge& e : photo.edges)
+	{
+		least = std::min(least, e.blur);
+		most = std::max(most, e.blur);
+	}
+	log.Info(fmt::format("[{}/{}] {}: {}, blur {:.1f} to {:.1f} px; {}", number, total, photo.file,
+		CountText(photo), least, most, RatioText(photo)));
+	if (photo.edges_dropped > 0)
+		log.Warn(fmt::format("{}: {} of {} edges left out, too blurred or too noisy", photo.file, photo.edges_dropped,
+			photo.edges_dropped + int(photo.edges.size())));
+	if (photo.saturated_share > 0.05)
+		log.Warn(fmt::format("{}: {:.0f} % of the edges have a clipped bright side, which narrows their blur: expose less", photo.file, 100 * photo.saturated_share));
+}
+
+/// Pictures seen before, by their pixels: a copy under another name or in another lossless format is none the newer.
+class SeenPictures
+{
+public:
+	/// Throws Refused.
+	void Add(const std::string& file, const cv::Mat& grey)
+	{
+		size_t hash = 0;
+		for (int y = 0; y < grey.rows; ++y)
+			hash = 31 * hash + std::hash<std::string_view>()({ grey.ptr<char>(y), size_t(grey.cols) * grey.elemSize() });
+		const auto [at, is_new] = files.emplace(hash, file);
+		if (!is_new)
+			throw Refused(fmt::format("{}: has the pixels of {}: the same photograph twice makes sigmas too small, and in two states one of them is wrong; leave one out", file, at->second));
+	}
+
+private:
+	std::map<size_t, std::string> files;
+};
+
+/// All pictures come from one sensor.
+void CheckSize(Task& task, const Photo& photo)
+{
+	if (task.width == 0)
+	{
+		task.width = photo.width;
+		task.height = photo.height;
+	}
+	if (photo.width != task.width || photo.height != task.height)
+		throw Refused(fmt::format("{}: is {}x{} pixels, the photographs before it are {}x{}; all must come from the same camera, uncropped and not turned",
+			photo.file, photo.width, photo.height, task.width, task.height));
+}
+
+std::vector<std::string> NamesOf(const std::vector<StateFiles>& states)
+{
+	std::vector<std::string> names;
+	for (const StateFiles& s : states)
+		names.push_back(s.name);
+	return names;
+}
+
+}
+
+void CheckPitch(double pitch_mm)
+{
+	if (!(pitch_mm > 0 && pitch_mm < 1))
+		throw UsageError(fmt::format("`pitch` {}: give the distance of pixel centres on the sensor in mm, such as 0.00655", pitch_mm));
+}
+
+Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, double pitch_mm, const MeasureOptions& options)
+{
+	return MeasureAll(states, board, pitch_mm, options, {});
+}
+
+Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, double pitch_mm, const MeasureOptions& o, const SeePicture& see)
+{
+	const QuietLibraries quiet;
+	CheckPitch(pitch_mm);
+	CheckStateNames(NamesOf(states));
+	Task task;
+	task.board = board;
+	task.pitch_mm = pitch_mm;
+	SeenPictures seen;
+	size_t total = 0, number = 0;
+	for (const StateFiles& s : states)
+		total += s.files.size();
+	for (const StateFiles& s : states)
+	{
+		State state;
+		state.name = s.name;
+		state.tilted = !task.states.empty();
+		for (const std::string& file : s.files)
+		{
+			cv::Mat grey;
+			Photo photo = MeasurePhoto(file, board, o.transfer, { o.any_orientation }, { o.edges_per_photo, o.edge_phase }, &grey);
+			LogPhoto(photo, ++number, total, o.log);
+			CheckSize(task, photo);
+			seen.Add(file, grey);
+			state.photos.push_back(std::move(photo));
+			if (see)
+				see(grey);
+		}
+		task.states.push_back(std::move(state));
+	}
+	LogFacts(task, o.log);
+	return task;
+}
+
+void AddFlatField(Task& task, size_t state, const std::string& file, const MeasureOptions& o)
+{
+	const QuietLibraries quiet;
+	if (state >= task.states.size())
+		throw UsageError(fmt::format("`flat_field` {}: there is no state {}; the task has {}, counted from 0", file, state, task.states.size()));
+	const cv::Mat picture = ReadLinear(file, o.transfer);
+	if (picture.cols != task.width || picture.rows != task.height)
+		throw Refused(fmt::format("`flat_field` {}: is {}x{} pixels, the photographs of the board are {}x{}; all must come from the same camera, uncropped and not turned",
+			file, picture.cols, picture.rows, task.width, task.height));
+	task.flat_fields.push_back({ state, file, MeasureFlatField(picture, file) });
+	o.log.Info(fmt::format("{}: flat field of state {}, {} cells", file, task.states[state].name, task.flat_fields.back().patches.size()));
+}
+
+}

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#ifndef TILTCAL_REAL_LENS_WORDS_H
+#define TILTCAL_REAL_LENS_WORDS_H
+
+#include "lens/aberrations.h"
+
+#include <string>
+
+namespace tiltcal
+{
+
+/// The words `pupil_magnification` and `aberrations` of the tilt_lens block, indented by two tabs. `terms`: ThirdOrderTerms or all.
+std::string RealLensWords(const tilt_lens::RealLens<double>& lens, int terms);
+
+}
+
+#endif

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "camera/write_lens_inc.h"
+
+#include "base/files.h"
+#include "camera/camera_block.h"
+#include "camera/camera_macros.h"
+#include "camera/real_lens_words.h"
+#include "model/projection.h"
+#include "model/state_names.h"
+#include <tiltcal/camera.h>
+
+#include <fmt/format.h>
+
+namespace tiltcal
+{
+
+namespace
+{
+
+/// The thin lens's camera with the numbers of the real one; what the aberrations say is taken out.
+StateCamera CameraOfLens(const Calibration& c, size_t s)
+{
+	const RealLens& lens = *c.real_lens;
+	const RealLensState& state = lens.states[s];
+	StateCamera camera = CameraOfState(c, s);
+	camera.model = "lens";
+	// The exit pupil stands m w before the sensor (lens/pupil_magnification.h).
+	const double m = lens.pupil_magnification.value;
+	camera.image_distance_mm = state.image_distance_mm.value / m;
+	camera.sigma.image_distance_mm = state.image_distance_mm.sigma / m;
+	camera.principal_point = state.principal_point;
+	camera.sigma.principal_point = state.principal_point_sigma;
+	camera.distortion = {};
+	camera.field_curvature_per_mm = 0;
+	camera.aperture_diameter_mm *= lens.aperture_diameter_mm.value / c.solution.aperture_diameter.value;
+	camera.sigma.aperture_diameter_mm = lens.aperture_diameter_mm.sigma;
+	camera.lens_tilt_deg = state.lens.lens_tilt.value;
+	camera.sigma.lens_tilt_deg = state.lens.lens_tilt.sigma;
+	camera.tilt_direction_deg = state.lens.tilt_direction.value;
+	camera.sigma.tilt_direction_deg = state.lens.tilt_direction.sigma;
+	camera.focus_distance_mm = state.lens.focus_distance.value;
+	camera.sigma.focus_distance_mm = state.lens.focus_distance.sigma;
+	return camera;
+}
+
+std::string Declares(const StateCamera& camera, const std::string& prefix)
+{
+	std::string out;
+	const auto declare = [&](const std::string& name, double value, double sigma, const char* unit)
+	{
+		out += fmt::format("#declare {}_{} = {:.10g};   // +- {:.2g} {}\n", prefix, name, SdlNumber(value), sigma, unit);
+	};
+	const StateCameraSigma& sigma = camera.sigma;
+	declare("Lens_Tilt", camera.lens_tilt_deg, sigma.lens_tilt_deg, "degrees");
+	declare("Tilt_Direction", camera.tilt_direction_deg, sigma.tilt_direction_deg, "degrees, 0 = recedes towards picture up, 90 = right");
+	declare("Focus_Distance", camera.focus_distance_mm, sigma.focus_distance_mm, "mm, along the axis, of the plane that the lens is focused on near its own axis");
+	declare("Image_Distance", camera.image_distance_mm, sigma.image_distance_mm, "mm; the exit pupil stands pupil_magnification times as far from the sensor");
+	const Point shift = ShiftOfPicture(camera.width, camera.height, camera.principal_point);
+	declare("Shift_X", shift[0] * camera.pitch_mm, sigma.principal_point[0] * camera.pitch_mm, "mm");
+	declare("Shift_Y", shift[1] * camera.pitch_mm, sigma.principal_point[1] * camera.pitch_mm, "mm");
+	declare("Aperture_Diameter", camera.aperture_diameter_mm, sigma.aperture_diameter_mm, "mm");
+	const auto pair = [&](const char* name, const char* first, const char* second, const TwoNumbers& numbers)
+	{
+		out += fmt::format("#declare {0}_{1}_{2} = {3:.10g};\n#declare {0}_{1}_{4} = {5:.10g};\n", prefix, name, first, numbers[0], second, numbers[1]);
+	};
+	for (size_t k = 0; k < camera.rims_mm.size(); ++k)
+		pair(RimName(k).c_str(), "Radius", "Distance", camera.rims_mm[k]);
+	if (camera.lateral)
+		pair("Lateral", "Red", "Blue", *camera.lateral);
+	if (camera.axial_per_mm)
+		pair("Axial", "Red", "Blue", *camera.axial_per_mm);
+	out += fmt::format("#declare {}_Lens_Centre = {};   // mm, seen from the untilted one: right, up, forward\n", prefix, SdlVector(camera.lens_centre_mm));
+	return out;
+}
+
+}
+
+std::string LensInc(const Calibration& c, size_t s)
+{
+	const RealLens& found = *c.real_lens;
+	const std::string& name = c.task.states[s].name;
+	CheckStateName(name);
+	const std::string p = "TiltCal_" + name;
+	const StateCamera camera = CameraOfLens(c, s);
+	tilt_lens::RealLens<double> lens{ found.pupil_magnification.value, 1 / found.focal_length_mm.value, { {}, found.radius_mm } };
+	for (size_t k = 0; k < found.aberrations_mm.size(); ++k)
+		lens.aberrations.c[k] = found.aberrations_mm[k].value;
+	BlockLayout layout;
+	layout.lens_words = RealLensWords(lens, tilt_lens::ThirdOrderTerms);
+	layout.rims_only_if = camera.rims_mm.empty() ? "" : "TiltCal_Rim";
+	layout.place = MacroPlace(p, camera.width * camera.pitch_mm, camera.height * camera.pitch_mm);
+	std::string out = fmt::format(
+		"// lens-{}.inc, written by tiltcal {}: one real lens for all states, to be included in place of camera-{}.inc. World unit: 1 mm.\n"
+		"// Render at {} x {} pixels or any size of this aspect ratio.\n"
+		"// World of the photographs' poses: origin at the board's first inner corner (or circle's centre), x along\n"
+		"// the columns, y up the rows, z into the board.\n"
+		"// Focal length {:.6g} +- {:.2g} mm; the places of edges fit to {:.3f} px, their blurs to {:.3f} px.\n\n{}",
+		name, TILTCAL_VERSION, name, camera.width, camera.height, found.focal_length_mm.value, found.focal_length_mm.sigma, found.rms_place, found.rms_blur, BlurSamplesDefault());
+	if (!camera.rims_mm.empty())
+		out += "// 1: with the rims beside the aperture. 0: without them.\n#ifndef (TiltCal_Rim)\n\t#declare TiltCal_Rim = 1;\n#end\n";
+	return out + "\n" + Declares(camera, p) + PhotoPoses(p, c.task.states[s].photos, found.states[s].poses) + "\n" +
+		CameraMacros(p, "the centre of the entrance pupil", CameraBlockText(camera, DeclaredNumbers(p), layout));
+}
+
+}

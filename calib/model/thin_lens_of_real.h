@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#ifndef TILTCAL_THIN_LENS_OF_REAL_H
+#define TILTCAL_THIN_LENS_OF_REAL_H
+
+namespace tiltcal
+{
+
+/// |q + e_z / w|, 1/mm, of the thin lens that does near its axis what one of the power 1/f and the pupil magnification m does
+/// (povray-patch/lens/MODEL.md, Real lenses). normal_z: of the unit lens normal, along the sensor's; w_mm: a thin lens's, the exit pupil
+/// stands m w before the sensor.
+inline double PowerOfThinLens(double m, double power, double normal_z, double w_mm) { return m * power - (m - 1) * normal_z / w_mm; }
+
+}
+
+#endif

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#ifndef TILTCAL_BLOCK_COVARIANCE_H
+#define TILTCAL_BLOCK_COVARIANCE_H
+
+#include <Eigen/Core>
+#include <ceres/covariance.h>
+#include <ceres/problem.h>
+
+#include <vector>
+
+namespace tiltcal
+{
+
+/// Covariances of a problem's blocks, 0 for those that are held.
+class BlockCovariance
+{
+public:
+	/// Fails on a singular problem, which is the answer wanted there.
+	explicit BlockCovariance(ceres::Problem& to_judge);
+
+	/// `together`: with each other; `alone`: each by itself. False: singular.
+	bool Compute(const std::vector<const double*>& together, const std::vector<const double*>& alone = {});
+
+	Eigen::MatrixXd Of(const double* a, const double* b) const;
+
+	/// Of all of them, one after the other.
+	Eigen::MatrixXd Of(const std::vector<const double*>& blocks) const;
+
+private:
+	bool Free(const double* block) const { return !problem.IsParameterBlockConstant(block); }
+
+	ceres::Problem& problem;
+	ceres::Covariance covariance;
+};
+
+}
+
+#endif

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "solve/real_lens_fit.h"
+
+#include "edge/soft_radius.h"
+#include "model/footprint.h"
+#include "solve/block_covariance.h"
+#include "solve/by_photographs.h"
+#include "solve/each_edge.h"
+#include "solve/least_squares.h"
+#include "solve/solve_geometry.h"
+
+#include <ceres/ceres.h>
+#include <opencv2/core/utility.hpp>
+
+#include <cmath>
+
+namespace tiltcal
+{
+
+namespace
+{
+
+using namespace real_lens;
+using RealLensCost = ceres::AutoDiffCostFunction<struct WeightedRealLensEdge, 2, STATE_SIZE, 6, LENS_SIZE, tilt_lens::AberrationTerms>;
+
+struct WeightedRealLensEdge
+{
+	const RealLensEdge& edge;
+	double of_place, of_blur;
+
+	template<typename T>
+	bool operator()(const T* state, const T* pose, const T* lens, const T* c, T* residual) const
+	{
+		edge.See(state, pose, lens, c, residual);
+		residual[0] *= T(of_place);
+		residual[1] *= T(of_blur);
+		return true;
+	}
+};
+
+/// What the sum over the opening's points misses of the mean over the disc that was fitted, whichever way it lies.
+double MissOfDisc(const FitResponse& response, double diameter)
+{
+	const int directions = 12, fine = 400;
+	double coarse = 0, exact = 0;
+	for (int d = 0; d < directions; ++d)
+	{
+		const double a = 2 * M_PI * d / directions, cosine = std::cos(a), sine = std::sin(a);
+		for (const OpeningPoint& p : OpeningPoints())
+			coarse += p.weight * response.Soft(0.5 * diameter * (p.x * cosine + p.y * sine)).value / directions;
+	}
+	// Chebyshev's points of the second kind: the chords of a disc are their weights.
+	for (int k = 1; k <= fine; ++k)
+	{
+		const double a = M_PI * k / (fine + 1);
+		exact += 2 * std::sin(a) * std::sin(a) / (fine + 1) * response.Soft(0.5 * diameter * std::cos(a)).value;
+	}
+	return coarse - exact;
+}
+
+RealLensEdge EdgeOf(const RealLensFit& fit, const Edge& e, const RealLensNumbers& x, size_t s, size_t p)
+{
+	const Task& task = fit.task;
+	const Point normal = EdgeNormal(e);
+	const double floor_squared = std::max(x.lens[FLOOR_SQUARED], 0.0), squared = SignedSquare(e.blur), h = 0.01;
+	// Edges that were told, not measured, have neither pixels nor light.
+	const double reach = e.reach > 0 ? e.reach : 0.7 * std::abs(e.blur) + 3, dark = e.high > e.low ? e.low / (e.high - e.low) : 0;
+	RealLensEdge edge{ task.board.X(e.board_column), task.board.Y(e.board_row), e.along_columns, e.x, e.y, normal[0], normal[1], x.r, task.pitch_mm,
+		FitResponse(normal[0], normal[1], e.blur, reach, floor_squared / 16, dark), 0, (SoftDiameterOfSquare(squared + h) - SoftDiameterOfSquare(squared - h)) / (2 * h), floor_squared, {}, {} };
+	edge.soft_of_disc = MissOfDisc(edge.response, std::sqrt(std::max(squared - x.lens[FLOOR_SQUARED], 0.0)));
+	const auto mounted = [&](double t) { return MountedLens<double>(x.states[s].data(), x.lens.data(), x.c.data(), x.r, task.pitch_mm, e.x + t * normal[0], e.y + t * normal[1]); };
+	const double step = 0.5;   // px
+	const MountedLens<double> at = mounted(0), before = mounted(-step), behind = mounted(step);
+	const double* const pose = x.poses[s][p].data();
+	double R[9];
+	ceres::AngleAxisToRotationMatrix(pose, R);
+	edge.points = OpeningThroughRims({ at.lens, x.r * x.lens[OPENING] * x.lens[MAGNIFICATION], at.x, at.y, at.depth }, fit.rims);
+	for (const OpeningPoint& point : edge.points)
+		edge.px_per_mm.push_back(2 * step / (edge.FromLine(behind, pose, R, x.lens.data(), point) - edge.FromLine(before, pose, R, x.lens.data(), point)));
+	return edge;
+}
+
+/// Holds the numbers of a block that are not free.
+void Hold(ceres::Problem& problem, double* block, int size, const std::vector<int>& held)
+{
+	if (int(held.size()) == size)
+		problem.SetParameterBlockConstant(block);
+	else if (!held.empty())
+		problem.SetManifold(block, new ceres::SubsetManifold(size, held));
+}
+
+/// Of edges that outlive the problem.
+std::vector<PhotographBlocks> Build(const RealLensFit& fit, const std::vector<RealLensEdge>& edges, RealLensNumbers& x, ceres::Problem& problem)
+{
+	std::vector<PhotographBlocks> photographs;
+	size_t k = 0;
+	ForEachEdge(fit.task, [&](size_t s, size_t p, const Edge& e)
+	{
+		double* const pose = x.poses[s][p].data();
+		if (photographs.empty() || photographs.back().pose != pose)
+			photographs.push_back({ {}, pose, s });
+		auto* const cost = new WeightedRealLensEdge{ edges[k++], 1 / std::hypot(e.offset_sigma, fit.error.offset), 1 / std::hypot(e.blur_sigma, fit.error.blur) };
+		photographs.back().residuals.push_back(problem.AddResidualBlock(new RealLensCost(cost), new ceres::HuberLoss(2.5 * std::sqrt(2.0)), x.states[s].data(), pose, x.lens.data(), x.c.data()));
+	});
+	std::vector<int> held;
+	for (int term = 0; term < tilt_lens::AberrationTerms; ++term)
+		if (!x.free[size_t(term)])
+			held.push_back(term);
+	Hold(problem, x.c.data(), tilt_lens::AberrationTerms, held);
+	Hold(problem, x.lens.data(), LENS_SIZE, x.magnification_free ? std::vector<int>{} : std::vector<int>{ MAGNIFICATION });
+	if (!fit.task.untilted_free)
+		Hold(problem, x.states[0].data(), STATE_SIZE, { NX, NY });
+	return photographs;
+}
+
+std::vector<const double*> SharedBlocks(const RealLensNumbers& x)
+{
+	std::vector<const double*> blocks{ x.lens.data(), x.c.data() };
+	for (const auto& state : x.states)
+		blocks.push_back(state.data());
+	return blocks;
+}
+
+}
+
+RealLensNumbers StartOfRealLens(const Task& task, const Geometry& geometry, const Solution& thin)
+{
+	RealLensNumbers x;
+	double power = 0;
+	for (size_t s = 0; s < task.states.size(); ++s)
+	{
+		const StateGeometry& state = geometry.states[s];
+		const Vec3<double> n = state.lens_normal;
+		x.states.push_back({ n.x / n.z, n.y / n.z, geometry.w_px, state.principal_point[0], state.principal_point[1] });
+		x.poses.push_back(state.poses);
+		power += 1 / thin.states[s].focal_length.value / double(task.states.size());
+	}
+	x.r = 0.5 * thin.aperture_diameter.value;
+	x.lens = { power * task.pitch_mm, 1, 1, thin.psf_floor_squared.value };
+	return x;
+}
+
+std::vector<RealLensEdge> RealLensFit::EdgesAbout(const RealLensNumbers& x) const
+{
+	struct Place { size_t state, photo; const Edge* edge; };
+	std::vector<Place> places;
+	ForEachEdge(task, [&](size_t s, size_t p, const Edge& e) { places.push_back({ s, p, &e }); });
+	std::vector<std::optional<RealLensEdge>> made(places.size());
+	cv::parallel_for_(cv::Range(0, int(places.size())), [&](const cv::Range& range)
+	{
+		for (int k = range.start; k < range.end; ++k)
+			made[size_t(k)] = EdgeOf(*this, *places[size_t(k)].edge, x, places[size_t(k)].state, places[size_t(k)].photo);
+	});
+	std::vector<RealLensEdge> edges;
+	for (auto& edge : made)
+		edges.push_back(std::move(*edge));
+	return edges;
+}
+
+std::vector<std::array<double, 2>> RealLensFit::Residuals(const std::vector<RealLensEdge>& edges, const RealLensNumbers& x) const
+{
+	std::vector<std::array<double, 2>> all;
+	ForEachEdge(task, [&](size_t s, size_t p, const Edge&)
+	{
+		double seen[2];
+		edges[all.size()].See(x.states[s].data(), x.poses[s][p].data(), x.lens.data(), x.c.data(), seen);
+		all.push_back({ seen[0], seen[1] });
+	});
+	return all;
+}
+
+bool RealLensFit::Minimise(const std::vector<RealLensEdge>& edges, RealLensNumbers& x, bool coarse) const
+{
+	ceres::Problem problem;
+	Build(*this, edges, x, problem);
+	LeastSquares how{ ceres::DENSE_SCHUR, 200, coarse ? 1e-4 : 1e-7 };
+	how.threads = AllThreads();
+	return SolveLeastSquares(how, problem).has_value();
+}
+
+std::optional<RealLensFit::Judged> RealLensFit::Judge(const std::vector<RealLensEdge>& edges, RealLensNumbers& x) const
+{
+	ceres::Problem problem;
+	const std::vector<PhotographBlocks> photographs = Build(*this, edges, x, problem);
+	const std::vector<const double*> shared = SharedBlocks(x);
+	BlockCovariance covariance(problem);
+	if (!covariance.Compute(shared))
+		return std::nullopt;
+	double cost = 0;
+	problem.Evaluate(ceres::Problem::EvaluateOptions(), &cost, nullptr, nullptr, nullptr);
+	const double scale = 2 * cost / std::max(problem.NumResiduals() - problem.NumParameters(), 1);
+	Judged judged;
+	judged.by_edges = scale * covariance.Of(shared);
+	if (const std::optional<CovarianceByPhotographs> jackknife = JackknifeOverPhotographs(problem, photographs))
+	{
+		judged.by_photographs = jackknife->Of(shared);
+		judged.held_out = jackknife->HeldOut();
+	}
+	return judged;
+}
+
+std::optional<RealLensAnswer> SolveRealLens(const Task& task, const Geometry& geometry, const Solution& thin, const std::vector<tilt_lens::Rim>& rims)
+{
+	RealLensAnswer answer;
+	RealLensNumbers& x = answer.numbers;
+	x = StartOfRealLens(task, geometry, thin);
+	for (int k = 0; k < tilt_lens::ThirdOrderTerms; ++k)
+		x.free[size_t(k)] = true;
+	x.magnification_free = true;
+	RealLensFit fit{ task, rims, {} };
+	const int rounds = 4;
+	std::vector<RealLensEdge> edges = fit.EdgesAbout(x);
+	for (int round = 0; round < rounds; ++round)
+	{
+		// Each round is built about the last one's answer, and knows better what the lens leaves out.
+		fit.error = ErrorOf(fit.Residuals(edges, x));
+		if (!fit.Minimise(edges, x, round + 1 < rounds))
+			return std::nullopt;
+		edges = fit.EdgesAbout(x);
+	}
+	answer.error = ErrorOf(fit.Residuals(edges, x));
+	fit.error = answer.error;
+	const std::optional<RealLensFit::Judged> judged = fit.Judge(edges, x);
+	if (!judged)
+		return std::nullopt;
+	answer.judged = *judged;
+	return answer;
+}
+
+}

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "solve/solve_real_lens.h"
+
+#include "model/thin_lens_of_real.h"
+#include "model/tilt_angles.h"
+#include "solve/fill_solution.h"
+#include "solve/real_lens_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tiltcal
+{
+
+namespace
+{
+
+using namespace real_lens;
+
+/// Where a state's numbers begin among those of RealLensFit::Judged.
+int PlaceOfState(size_t s) { return LENS_SIZE + tilt_lens::AberrationTerms + STATE_SIZE * int(s); }
+
+/// q (1/mm) and image distance (mm) of the thin lens that does near its axis what this one does.
+Eigen::Vector4d ThinLensOf(const Eigen::VectorXd& state, const Eigen::VectorXd& lens, double pitch_mm)
+{
+	const double one = 1 / std::sqrt(state[NX] * state[NX] + state[NY] * state[NY] + 1), m = lens[MAGNIFICATION];
+	const double w = state[W] * pitch_mm / m, power = PowerOfThinLens(m, lens[POWER] / pitch_mm, one, w);
+	return { power * state[NX] * one, power * state[NY] * one, power * one - 1 / w, w };
+}
+
+/// The covariance of these by that of the numbers, by central differences.
+Eigen::Matrix4d CovarianceOfThinLens(const RealLensNumbers& x, size_t s, const Eigen::MatrixXd& of_numbers, double pitch_mm)
+{
+	std::vector<int> at;
+	for (int k = 0; k < STATE_SIZE; ++k)
+		at.push_back(PlaceOfState(s) + k);
+	for (int k = 0; k < LENS_SIZE; ++k)
+		at.push_back(k);
+	const int n = int(at.size());
+	Eigen::VectorXd numbers(n);
+	numbers << Eigen::Map<const Eigen::VectorXd>(x.states[s].data(), STATE_SIZE), Eigen::Map<const Eigen::VectorXd>(x.lens.data(), LENS_SIZE);
+	Eigen::MatrixXd by(4, n), c(n, n);
+	for (int j = 0; j < n; ++j)
+	{
+		const double h = 1e-6 * std::max(std::abs(numbers[j]), 1e-3);
+		const auto at_step = [&](double step)
+		{
+			Eigen::VectorXd moved = numbers;
+			moved[j] += step;
+			return ThinLensOf(moved.head(STATE_SIZE), moved.tail(LENS_SIZE), pitch_mm);
+		};
+		by.col(j) = (at_step(h) - at_step(-h)) / (2 * h);
+		for (int i = 0; i < n; ++i)
+			c(i, j) = of_numbers(at[size_t(i)], at[size_t(j)]);
+	}
+	return by * c * by.transpose();
+}
+
+RealLensState StateOf(const RealLensAnswer& answer, size_t s, double pitch_mm, const std::vector<double>& sigma)
+{
+	const RealLensNumbers& x = answer.numbers;
+	const Eigen::Vector4d thin = ThinLensOf(Eigen::Map<const Eigen::VectorXd>(x.states[s].data(), STATE_SIZE), Eigen::Map<const Eigen::VectorXd>(x.lens.data(), LENS_SIZE), pitch_mm);
+	const Vec3<double> q{ thin[0], thin[1], thin[2] };
+	RealLensState state;
+	FillStateLens(q, thin[3], CovarianceOfThinLens(x, s, answer.judged.by_edges, pitch_mm), state.lens);
+	if (answer.judged.by_photographs)
+	{
+		StateLens by_photographs;
+		FillStateLens(q, thin[3], CovarianceOfThinLens(x, s, *answer.judged.by_photographs, pitch_mm), by_photographs);
+		WidenSigmas(by_photographs, state.lens);
+	}
+	const size_t at = size_t(PlaceOfState(s));
+	state.image_distance_mm = { x.states[s][W] * pitch_mm, sigma[at + W] * pitch_mm };
+	state.principal_point = { x.states[s][CX], x.states[s][CY] };
+	state.principal_point_sigma = { sigma[at + CX], sigma[at + CY] };
+	state.poses = x.poses[s];
+	return state;
+}
+
+}
+
+RealLens FindRealLens(const Task& task, const Geometry& geometry, const Solution& thin, const std::vector<tilt_lens::Rim>& rims)
+{
+	RealLens found;
+	const std::optional<RealLensAnswer> answer = SolveRealLens(task, geometry, thin, rims);
+	if (!answer)
+	{
+		found.failure = "the fit did not converge, or the photographs do not tell its numbers apart: photograph more inclined boards, sharp in one part and blurred in another, to the picture's corners";
+		return found;
+	}
+	const RealLensNumbers& x = answer->numbers;
+	std::vector<double> sigma;
+	for (int k = 0; k < PlaceOfState(task.states.size()); ++k)
+		sigma.push_back(std::sqrt(std::max({ answer->judged.by_edges(k, k), answer->judged.by_photographs ? (*answer->judged.by_photographs)(k, k) : 0, 0. })));
+	const double board = task.board.square_sigma_mm / task.board.square_mm;
+	const double f = task.pitch_mm / x.lens[POWER], d = 2 * x.r * x.lens[OPENING];
+	found.focal_length_mm = { f, f * sigma[POWER] / x.lens[POWER] };
+	found.pupil_magnification = { x.lens[MAGNIFICATION], sigma[MAGNIFICATION] };
+	found.aperture_diameter_mm = { d, std::hypot(2 * x.r * sigma[OPENING], board * d) };
+	found.psf_floor_squared = { x.lens[FLOOR_SQUARED], sigma[FLOOR_SQUARED] };
+	found.radius_mm = x.r;
+	for (size_t k = 0; k < found.aberrations_mm.size(); ++k)
+		found.aberrations_mm[k] = { x.c[k], sigma[LENS_SIZE + k] };
+	for (size_t s = 0; s < task.states.size(); ++s)
+		found.states.push_back(StateOf(*answer, s, task.pitch_mm, sigma));
+	found.rms_place = answer->error.offset;
+	found.rms_blur = answer->error.blur;
+	found.held_out = answer->judged.held_out;
+	return found;
+}
+
+}

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// Edges through a real lens: what their fit makes of light that falls into no disc, what rims leave of the opening, and a lens without aberrations.
+
+#include "edge/edge_fit.h"
+#include "edge/fit_response.h"
+#include "edge/soft_radius.h"
+#include "solve/opening_points.h"
+#include "solve/real_lens_fit.h"
+#include "support/synthetic_lens.h"
+
+#include <tiltcal/calibrate.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+namespace
+{
+
+using namespace tiltcal;
+
+/// What FitEdge finds of an edge whose light is spread as `share` says: points and their parts, along the normal, px.
+EdgeFit Fitted(const std::vector<std::pair<double, double>>& spread, double nx, double ny, double reach, double start)
+{
+	std::vector<EdgeSample> samples;
+	for (double x = -reach + 0.05; x < reach; x += 0.1)
+		for (const double s : { -3.0, 0.0, 3.0 })
+		{
+			double light = 0;
+			for (const auto& [at, part] : spread)
+				light += part * PixelEdgeResponse(x - at, 0, std::abs(nx), std::abs(ny)).value;
+			samples.push_back({ x, s, 0.05 + 0.75 * light });
+		}
+	return FitEdge(samples, LoneEdge(nx, ny), start);
+}
+
+/// A disc of radius R as points along a line, each with its chord.
+std::vector<std::pair<double, double>> Disc(double R)
+{
+	const int n = 300;
+	std::vector<std::pair<double, double>> spread;
+	for (int k = 1; k <= n; ++k)
+	{
+		const double a = M_PI * k / (n + 1), sine = std::sin(a);
+		spread.emplace_back(R * std::cos(a), 2 * sine * sine / (n + 1));
+	}
+	return spread;
+}
+
+// The light of a disc, a part of it thrown aside: coma, halo or core. So small a part that the fit's Huber weights, which begin at some 0.4 % of the step, let
+// it be. To first order: a few times its square may be left, and 3 % by the response's own samples (48 across, and 65 nodes), whose steps are 1/10 of a disc.
+TEST(FitResponse, IsWhatTheFitOfAnEdgeDoes)
+{
+	const double part = 0.004;
+	for (const double diameter : { 3.0, 8.0, 20.0 })
+		for (const double aside : { -0.8, -0.3, 0.0, 0.5, 0.9 })
+		{
+			const double nx = 0.8, ny = 0.6, reach = 0.75 * diameter + 3, R = 0.5 * diameter;
+			std::vector<std::pair<double, double>> spread = Disc(R);
+			for (auto& [at, share] : spread)
+				share *= 1 - part;
+			spread.emplace_back(aside * R, part);
+			const EdgeFit disc = Fitted(Disc(R), nx, ny, reach, R), fit = Fitted(spread, nx, ny, reach, R);
+			ASSERT_TRUE(disc.valid && fit.valid);
+			const FitResponse response(nx, ny, diameter, reach, 0, 0.05 / 0.75);
+			EXPECT_NEAR(fit.offset - disc.offset, part * response.Place(aside * R).value, 3 * part * part * R + 0.03 * part * R) << diameter << " " << aside;
+			EXPECT_NEAR(SoftDiameter(2 * fit.radius) - SoftDiameter(2 * disc.radius), part * response.Soft(aside * R).value, 6 * part * part * R + 0.03 * part * diameter) << diameter << " " << aside;
+		}
+}
+
+TEST(FitResponse, ItsDerivativesAreItsOwn)
+{
+	const FitResponse response(0.6, 0.8, 7, 9, 0.1, 0);
+	const double h = 1e-5;
+	for (const double x : { -9.0, -4.1, -0.3, 0.0, 2.22, 6.0 })
+	{
+		EXPECT_NEAR(response.Place(x).derivative, (response.Place(x + h).value - response.Place(x - h).value) / (2 * h), 1e-5);
+		EXPECT_NEAR(response.Soft(x).derivative, (response.Soft(x + h).value - response.Soft(x - h).value) / (2 * h), 1e-5);
+	}
+	EXPECT_EQ(response.Place(100).value, 0);
+}
+
+// Of a uniform disc: light 1, middle 0, 1/4 along every direction, fourth moment 1/8.
+TEST(OpeningPoints, HaveADiscsMoments)
+{
+	for (const double a : { 0.0, 0.4, 1.1, 2.3 })
+	{
+		double moment[5] = {};
+		for (const OpeningPoint& p : OpeningPoints())
+			for (int k = 0; k < 5; ++k)
+				moment[k] += p.weight * std::pow(p.x * std::cos(a) + p.y * std::sin(a), k);
+		const double disc[] = { 1, 0, 0.25, 0, 0.125 };
+		for (int k = 0; k < 5; ++k)
+			EXPECT_NEAR(moment[k], disc[k], 1e-12) << k;
+	}
+}
+
+OpeningView View(double X) { return { { 1, 1 / 45., { {}, 8 } }, 8, X, 0, 48 }; }
+
+// A rim close behind the pupil, its centre half a radius aside: what two discs have in common.
+TEST(OpeningThroughRims, LeavesWhatTwoDiscsHaveInCommon)
+{
+	// Behind at z the ray to X is at x (1 - z/48) + X z/48: with z = 24, x/2 + X/2, and a rim of 4 leaves |x + X| < 8.
+	const double X = 4;
+	const std::vector<OpeningPoint> open = OpeningThroughRims(View(X), { { 4, -24 } });
+	double middle = 0, light = 0, exact = 0, area = 0;
+	for (const OpeningPoint& p : open)
+	{
+		middle += p.weight * p.x;
+		light += p.weight;
+	}
+	for (double x = -1; x < 1; x += 1e-4)
+	{
+		// In radii: |x| < 1 and |x + 0.5| < 1.
+		const double chord = std::min(std::sqrt(1 - x * x), std::abs(x + 0.5) < 1 ? std::sqrt(1 - (x + 0.5) * (x + 0.5)) : 0);
+		exact += x * chord;
+		area += chord;
+	}
+	EXPECT_NEAR(light, 1, 1e-12);
+	// 400 small points of equal area: their number on either side of a border is off by some tenths of sqrt(400).
+	EXPECT_NEAR(middle, exact / area, 0.02);
+	EXPECT_EQ(OpeningThroughRims(View(0), {}).size(), OpeningPoints().size());
+	EXPECT_EQ(OpeningThroughRims(View(0), { { 1e-9, -24 } }).size(), OpeningPoints().size()) << "nothing left";
+}
+
+// A thin lens has none: each number within 4 of its own sigmas, of ten numbers once in 1500 runs not.
+TEST(RealLens, AThinLensHasNoAberrations)
+{
+	const Task task = synthetic::TwoStates(synthetic::Lens(), synthetic::Tilted(5, 30), { 0.03, 0.06, 1 }, { 0.03, 0.06, 2 });
+	const Calibration c = Calibrate(task, { Model::PLANE, Poses::OWN });
+	const std::optional<RealLensAnswer> answer = SolveRealLens(c.task, c.geometry, c.solution, {});
+	ASSERT_TRUE(answer);
+	const RealLensNumbers& x = answer->numbers;
+	const Eigen::MatrixXd& v = answer->judged.by_edges;
+	const int terms = real_lens::LENS_SIZE, state = terms + tilt_lens::AberrationTerms + real_lens::STATE_SIZE;
+	for (int k = 0; k < tilt_lens::ThirdOrderTerms; ++k)
+		EXPECT_LT(std::abs(x.c[size_t(k)]), 4 * std::sqrt(v(terms + k, terms + k))) << k;
+	EXPECT_NEAR(x.lens[real_lens::MAGNIFICATION], 1, 4 * std::sqrt(v(real_lens::MAGNIFICATION, real_lens::MAGNIFICATION)));
+	const double slope = std::tan(5 * M_PI / 180), phi = 30 * M_PI / 180;
+	// The plane of focus recedes to where the lens's normal leans away from.
+	const double nx = x.states[1][real_lens::NX], ny = x.states[1][real_lens::NY];
+	EXPECT_NEAR(std::hypot(nx, ny), slope, 4 * std::sqrt(v(state, state) + v(state + 1, state + 1)));
+	EXPECT_LT(std::abs(nx * std::cos(phi) - ny * std::sin(phi)), 4 * std::sqrt(v(state, state) + v(state + 1, state + 1)));
+}
+
+}
