@@ -1,11 +1,11 @@
 #!/bin/sh
 # SPDX-License-Identifier: AGPL-3.0-or-later
 #
-# povray-strips on a real Slurm of two virtual nodes (slurm.sh, common.sh).
+# povray-strips on a real Slurm of two virtual nodes, which the test cluster.slurm_start has started in the folder of the fifth
+# argument (slurm.sh, common.sh). The tests take turns.
 . "$(dirname "$0")/common.sh"
 . "$here/slurm.sh"
-trap slurm_stop EXIT
-trap 'exit 143' TERM INT
+slurm=$5
 
 last_job() { tr -dc '0-9\n' < "$1/jobs.json" | grep . | tail -1; }
 job_state() { scontrol show job "$1" 2> /dev/null | sed -n 's/.*JobState=\([A-Z_]*\).*/\1/p' | sort -u | tr '\n' ' '; }
@@ -34,10 +34,11 @@ sphere { <-1, -0.5, 0>, 0.5 pigment { rgb 1 } }
 END
 }
 
+[ $case = guard ] || slurm_use "$slurm"
+
 case $case in
 picture)
 	# The pixels of one process from two nodes, and parts that take equally long where rows do not.
-	slurm_start "$work/slurm"
 	half_scene; size="+W128 +H96 +FN16 +UA"
 	expect 0 half.pov $size --parts 6 --pilot-time 5s; dir=$(folder)
 	prints "^Jobs: pilot [0-9]*, parts [0-9]*, join [0-9]*$"; prints "^Watch:  squeue --jobs=[0-9,]*;"; prints "^Cancel: scancel [0-9 ]*$"
@@ -54,21 +55,17 @@ picture)
 	echo "$cost $rows" | awk '{ exit !($1 <= 1.3 && $2 >= 2) }' || fail "not balanced: $cost by cost, $rows by rows" ;;
 node)
 	# A node dies in the middle, with all that runs on it: Slurm gives its part to the other one, and nothing is rendered twice.
-	slurm_start "$work/slurm"
-	scene s.pov "$lens blur_samples 900"
+	scene s.pov "$lens blur_samples 500"
 	expect 0 s.pov +W96 +H72 --parts 4 --equal-rows; dir=$(folder)
-	slurm_wait "a part on n2" sh -c "squeue --noheader --states=RUNNING --format='%j %N' | grep -q 'parts n2'"
-	sleep 0.5
-	[ -n "$(slurm_steps n2)" ] || fail "nothing to kill on n2"
-	slurm_kill_node n2
+	slurm_wait "POV-Ray on n2" slurm_runs "$slurm" n2 povray
+	slurm_kill_node "$slurm" n2
 	slurm_wait "end of the join" ended "$dir"
 	[ -s s.png ] || fail "no picture: $(cat "$dir"/log/*) $(scontrol show job | grep -E 'JobId|State')"
 	one one.png s.pov +W96 +H72; pixels one.png s.png "a node died"
-	grep -q 'requeue job .* due to failure of node n2' slurm/slurmctld.log || fail "Slurm requeued nothing: $(tail -20 slurm/slurmctld.log)"
+	grep -q 'requeue job .* due to failure of node n2' "$slurm/slurmctld.log" || fail "Slurm requeued nothing: $(tail -20 "$slurm/slurmctld.log")"
 	[ "$(grep -h '"node"' "$dir"/parts/*.json | grep -c n1)" -ge 3 ] || fail "n2 did more than it lived for" ;;
 fails)
 	# A part that fails, and fails again after --resume: named, with its command; no picture; the rest is not rendered again.
-	slurm_start "$work/slurm"
 	scene s.pov "$blur"
 	printf '#!/bin/sh\ncase "$*" in *"+ER49 "*) [ ! -e %s/bad ] || { echo "Fatal error: as told" >&2; exit 1; } ;; esac\necho "$*" >> %s/calls\nexec %s "$@"\n' "$work" "$work" "$bin/povray" > pov
 	chmod +x pov; touch bad
@@ -87,7 +84,6 @@ fails)
 	expect 0 --join "$dir"; one one.png s.pov +W64 +H49; pixels one.png s.png "failed twice" ;;
 film)
 	# Eight frames, and the same film a second time at once: two folders, two films.
-	slurm_start "$work/slurm"
 	scene s.pov "$blur"
 	film="+W32 +H24 +KFI1 +KFF8 +KI-1 +KF1"
 	mkdir a b one
@@ -103,12 +99,10 @@ film)
 	done ;;
 cancel)
 	# What is printed ends all three, and what runs; nothing is joined, nothing is left on the node.
-	slurm_start "$work/slurm"
 	scene s.pov "$lens blur_samples 4000"
 	expect 0 s.pov +W320 +H240 --parts 6 --equal-rows; dir=$(folder)
 	slurm_wait "running parts" sh -c "[ \"\$(squeue --noheader --states=RUNNING --format=%j | grep -c parts)\" = 2 ]"
 	expect 1 --resume "$dir"; says "still wait or run; cancel them first: scancel"
-	sleep 1
 	sh -c "$(sed -n 's/.*first: \(scancel [0-9 ]*\)$/\1/p' err)" || fail "scancel"
 	slurm_wait "end of all" sh -c "[ -z \"\$(squeue --noheader)\" ]"
 	slurm_wait "end of POV-Ray" sh -c "! ps -eo args | grep -v grep | grep -q '$work/s[.]strips\|$work/tmp/povray-strips'"
@@ -116,6 +110,22 @@ cancel)
 	[ "$(parts "$dir")" = 0 ] || fail "parts of a second each"
 	slurm_wait "empty TMPDIR" sh -c "[ -z \"\$(ls '$work/tmp')\" ]"
 	expect 0 --status "$dir"; prints "0 of 6 parts are there" ;;
+guard)
+	# Its ports are taken when it comes to use them: it takes others. Whoever started it is killed: it ends, and leaves nothing.
+	slurm_programs
+	python3 -c 'import socket, sys, time
+held = [socket.socket() for i in range(3)]
+for s in held: s.bind(("127.0.0.1", 0)); s.listen()
+print(*[s.getsockname()[1] for s in held], flush=True)
+time.sleep(120)' > ports &
+	holder=$!
+	trap 'kill $holder 2> /dev/null' EXIT
+	slurm_prepare "$work/slurm"
+	slurm_wait "ports" test -s ports
+	SLURM_TEST_PORTS=$(cat ports) sh -c 'sh "$0" start "$1" $$ > out 2>&1; kill -KILL $$' "$here/slurm.sh" "$work/slurm" 2> err
+	prints "started at attempt 2"
+	slurm_wait "end of the guard" test -e slurm/ended
+	slurm_gone "$work/slurm" || fail "left: $(slurm_processes "$work/slurm")" ;;
 *) echo "no such case: $case"; exit 99 ;;
 esac
 echo "all well"

@@ -147,7 +147,12 @@ interrupt)
 	scene s.pov "$lens blur_samples 4000"
 	"$strips" s.pov +W320 +H240 --parts 4 --local 2 --equal-rows > out 2> err &
 	pid=$!
-	sleep 3; kill -TERM $pid; wait $pid; got=$?
+	# In the middle: both of its POV-Rays run.
+	until [ "$(ps -eo args | grep -c "^$bin/povray.* +O$work/tmp/povray-strips.* +SR")" = 2 ]; do
+		kill -0 $pid 2> /dev/null || fail "it ended by itself"
+		sleep 0.1
+	done
+	kill -TERM $pid; wait $pid; got=$?
 	[ $got = 143 ] || fail "exit code $got, expected 143"
 	[ -z "$(ls tmp)" ] || fail "left in TMPDIR: $(ls tmp)"
 	ps -eo args | grep -v grep | grep "$bin/povray.*$work" && fail "a POV-Ray goes on"
