@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """A task of the array: renders its units, each into a picture of its own rows with a record beside it."""
 import os
+import resource
 import shutil
 import socket
 import tempfile
@@ -45,10 +46,10 @@ def _render(sub, rows, unit, here):
 			more += [f"+SF{rows['frame']}", f"+EF{rows['frame']}"]
 		if sub["cpus"]:
 			more.append(f"+WT{sub['cpus']}")
-		cpu = os.times()
+		cpu = _children_cpu()
 		place_, scene, options = place(sub)
 		code = run(command(sub["povray"], scene, options, more), log, cwd=place_)
-		cpu = os.times().children_user + os.times().children_system - cpu.children_user - cpu.children_system
+		cpu = _children_cpu() - cpu
 		with open(log, encoding="utf-8", errors="replace") as file:
 			said = file.read()
 		written = [name for name in os.listdir(folder) if name.endswith(sub["suffix"])]
@@ -66,6 +67,12 @@ def _render(sub, rows, unit, here):
 		print(f"part {unit}: {describe(rows)}, {time.monotonic() - start:.1f} s on {here}")
 	finally:
 		shutil.rmtree(folder, ignore_errors=True)
+
+
+def _children_cpu():
+	"""Seconds, finer than os.times() has them."""
+	used = resource.getrusage(resource.RUSAGE_CHILDREN)
+	return used.ru_utime + used.ru_stime
 
 
 def _keep_log(log, kept):
