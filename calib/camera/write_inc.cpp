@@ -179,8 +179,8 @@ std::string CameraInc(const Calibration& c, size_t s)
 		return out + thin;
 	return out + "// 1: the real lens, which has the tilts that the calibration says and predicts photographs of the board best.\n"
 		"// 0: the thin lens that comes nearest to it, which is better at distances where no board stood.\n"
-		"#ifndef (TiltCal_Real_Lens)\n\t#declare TiltCal_Real_Lens = 0;\n#end\n\n#if (TiltCal_Real_Lens)\n\n" + RealLensPart(c, s) +
-		"\n#else\n\n" + thin + "\n#end\n";
+		"#ifndef (TiltCal_Real_Lens)\n\t#declare TiltCal_Real_Lens = 0;\n#end\n\n#if (TiltCal_Real_Lens = 0)\n\n" + thin +
+		"\n#else\n\n" + RealLensPart(c, s) + "\n#end\n";
 }
 
 }

@@ -145,7 +145,7 @@ std::optional<Model> ParseModel(const std::string& text)
 /// The help of --model, from the models' own words.
 std::string ModelHelp()
 {
-	std::string help = "auto: curved where photographs left out show field curvature, else plane";
+	std::string help = "auto: curved where photographs left out show field curvature, else plane; from there on lens, where aberrations are left over and photographs left out show them";
 	for (const ModelWords& words : MODELS)
 		help += fmt::format("; {}: {}", words.name, words.meaning);
 	return help;

@@ -273,11 +273,11 @@ TEST(Photographs, TheNoteSaysWhatTheIncHolds)
 	const std::string inc = text.str();
 	// With it unless the scene says otherwise ..
 	EXPECT_THAT(inc, testing::HasSubstr("#ifndef (TiltCal_Distortion)\n\t#declare TiltCal_Distortion = 1;\n#end"));
-	// .. and the numbers are the ones of the note: behind the real lens's first those with it, behind #else those of `render`.
+	// .. and the numbers are the ones of the note: first those with it, behind #else those of `render`; the real lens's come last.
 	const auto declared = [&](size_t from) { return std::atof(inc.c_str() + inc.find("_Image_Distance = ", from) + 18); };
 	const size_t thin = inc.find("#if (TiltCal_Distortion)"), without = inc.find("#else", thin);
 	ASSERT_NE(without, std::string::npos);
-	EXPECT_THAT(inc.substr(0, thin), testing::HasSubstr("#ifndef (TiltCal_Real_Lens)\n\t#declare TiltCal_Real_Lens = 0;\n#end\n\n#if (TiltCal_Real_Lens)"));
+	EXPECT_THAT(inc.substr(0, thin), testing::HasSubstr("#ifndef (TiltCal_Real_Lens)\n\t#declare TiltCal_Real_Lens = 0;\n#end\n\n#if (TiltCal_Real_Lens = 0)"));
 	// As many digits as the file has.
 	EXPECT_NEAR(declared(thin), json.at("image_distance_mm").get<double>(), 1e-7);
 	EXPECT_NEAR(declared(without), json.at("render").at("image_distance_mm").get<double>(), 1e-7);
