@@ -18,6 +18,7 @@ file(CREATE_LINK ../lib/povray-tilt/bin/povray "${root}/usr/bin/povray-tilt" SYM
 file(CREATE_LINK ../lib/povray-tilt/bin/tiltcal "${root}/usr/bin/tiltcal" SYMBOLIC)
 file(CREATE_LINK ../lib/povray-tilt/bin/tiltcost "${root}/usr/bin/tiltcost" SYMBOLIC)
 file(CREATE_LINK ../lib/povray-tilt/bin/povray-strips "${root}/usr/bin/povray-strips" SYMBOLIC)
+file(CREATE_LINK ../lib/povray-tilt/bin/tiltcal-batch "${root}/usr/bin/tiltcal-batch" SYMBOLIC)
 
 # Links out of /usr are absolute, those within it relative: Debian's policy, 10.5.
 file(RENAME "${private}/share/povray-3.7" "${root}/usr/share/povray-tilt")

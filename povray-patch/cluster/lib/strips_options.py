@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """povray-strips' command line. The help is laid out as the other programs' is: cmake/help-to-man.awk makes the man page of it."""
 import re
-import shlex
 
 from common import usage
+from words import parse as parse_words
 
 HELP = """povray-strips: renders one picture, or a film, in parts: on a Slurm cluster, or on this machine with --local. The parts are strips of
 rows of equal predicted cost; the joined picture has the pixels of one process.
@@ -69,32 +69,8 @@ def is_for_povray(word):
 
 def parse(words):
 	"""Values by option, and under "own" the plain words, under "povray" POV-Ray's, in their order."""
-	values = {"own": [], "povray": [], "--sbatch": []}
-	words = list(words)
-	while words:
-		word = words.pop(0)
-		if not word.startswith("--"):
-			values["povray" if is_for_povray(word) else "own"].append(word)
-			continue
-		name, equals, value = word.partition("=")
-		if name in FLAG and not equals:
-			values[name] = True
-			continue
-		if name not in TEXT | NUMBER:
-			raise usage(f"no option {word}; povray-strips --help lists them")
-		if not equals:
-			if not words:
-				raise usage(f"{name} needs a value")
-			value = words.pop(0)
-		if name == "--sbatch":
-			values[name] += shlex.split(value)
-		elif name in NUMBER:
-			least = 0 if name == "--part" else 1
-			if not re.fullmatch(r"\d{1,7}", value) or int(value) < least:
-				raise usage(f"{name}: '{value}' is no number from {least} to 9999999")
-			values[name] = int(value)
-		else:
-			values[name] = value
+	values = parse_words("povray-strips", words, TEXT, NUMBER, FLAG, lists=("--sbatch",), is_other=is_for_povray, from_zero=("--part",))
+	values["povray"] = values.pop("other")
 	return _checked(values)
 
 
