@@ -20,6 +20,7 @@ Options:
   --nodes INT                 at most so many parts at once on the cluster [as many as Slurm gives]
   --cpus INT                  threads of a part [1]
   --dry-run                   say what would be submitted, and submit nothing
+  --plan                      measure, and say how long the picture takes on 1 to 1000 nodes, up to 16k: PICTURE.plan.json, .svg
   --sbatch TEXT               words for sbatch, such as '--partition=long --time=2:00:00 --mem=8G'; repeatable
   --light                     radiosity and photons once, for all parts; the scene must ask for it (see below)
   --pilot-time TEXT           how long tiltcost's pilot may trace [10s]
@@ -32,7 +33,7 @@ Options:
   --resume TEXT               submit again what is missing of this submission, or render it with --local
   --part INT                  render one part of the submission in FOLDER, here: --part NUMBER FOLDER
   --join TEXT                 join this submission's parts, here
-  --plan TEXT                 cut this submission's picture, here; the first job does so
+  --cut TEXT                  cut this submission's picture, here; the first job does so
 
 SCENE is a .pov or .ini file; what begins with one + or -, and NAME=value, goes to POV-Ray (+W +H +L +O +KFF Declare=..).
 Three jobs are submitted: the pilot, which cuts the picture; an array of the parts; and the join, which waits for all. Ids, how to watch and
@@ -57,10 +58,10 @@ Examples:
 Exit codes: 0 done or submitted, 1 refused or a part failed, 2 wrong usage, 3 unreadable or unwritable file, 128 + signal interrupted.
 """
 
-TEXT = {"--sbatch", "--pilot-time", "--setting", "--povray", "--status", "--resume", "--join", "--plan"}
+TEXT = {"--sbatch", "--pilot-time", "--setting", "--povray", "--status", "--resume", "--join", "--cut"}
 NUMBER = {"--parts", "--local", "--nodes", "--cpus", "--pilot-blocks", "--part"}
-FLAG = {"--dry-run", "--light", "--equal-rows", "--scene-may-write"}
-ACTIONS = ("--status", "--resume", "--join", "--plan")
+FLAG = {"--dry-run", "--plan", "--light", "--equal-rows", "--scene-may-write"}
+ACTIONS = ("--status", "--resume", "--join", "--cut")
 
 
 def is_for_povray(word):
@@ -86,6 +87,8 @@ def _checked(values):
 			raise usage(f"{actions[0]} FOLDER: the scene and its options are those of the submission")
 	elif not values["own"]:
 		raise usage("SCENE is required; povray-strips --help shows examples")
+	if "--plan" in values and ("--local" in values or "--dry-run" in values):
+		raise usage("--plan renders no picture: leave out --local and --dry-run")
 	if "--nodes" in values and "--local" in values:
 		raise usage("--nodes and --local exclude each other")
 	if "--setting" in values and not re.fullmatch(r"\d+,\d+,[\d.eE+-]+(,[\d.]+)?", values["--setting"]):
