@@ -10,6 +10,7 @@
 #include "calibrate/check_photographs.h"
 #include "calibrate/check_untilted.h"
 #include "calibrate/exif_check.h"
+#include "calibrate/use_threads.h"
 #include "calibrate/verdict.h"
 #include "base/robust.h"
 #include "solve/edge_bias.h"
@@ -236,6 +237,7 @@ void AddBoardSize(Calibration& c)
 Calibration Calibrate(const Task& measured, const CalibrateOptions& o)
 {
 	const QuietLibraries quiet;
+	const UseThreads threads(o.threads);
 	CheckTask(measured);
 	const Log& log = o.log;
 	Calibration c;

@@ -86,6 +86,18 @@ cancel)
 	[ "$(parts "$dir")" = 0 ] || fail "parts of a second each"
 	slurm_wait "empty TMPDIR" sh -c "[ -z \"\$(ls '$work/tmp')\" ]"
 	expect 0 --status "$dir"; prints "0 of 6 parts are there" ;;
+batch)
+	# A list of cameras as an array, with the table at the end; one of them fails.
+	photos=$here/../../scenes/boxes/photos/target strips=$bin/tiltcal-batch
+	. "$here/batch_list.sh"
+	write_list > list.txt
+	expect 0 list.txt --options "$common"
+	prints "^Jobs: cameras [0-9]*, table [0-9]*$"; prints "^Watch:  squeue --jobs=[0-9,]*$"; prints "^Cancel: scancel [0-9 ]*$"
+	expect 1 list.txt --options "$common"; says "still wait or run; cancel them first"
+	slurm_wait "end of the table" ended list
+	[ "$(job_state "$(last_job list)")" = "FAILED " ] || fail "a failed camera is no failure"
+	python3 "$here/batch_tables.py" list plus:done:2 minus:done:2 absent:failed:0 > out 2>&1 || fail "the tables disagree"
+	grep -q "2 of 3 cameras are done" list/log/table.txt || fail "$(cat list/log/table.txt)" ;;
 guard)
 	# Its ports are taken when it comes to use them: it takes others. Whoever started it is killed: it ends, and leaves nothing.
 	slurm_programs

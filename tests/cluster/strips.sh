@@ -207,6 +207,23 @@ balance)
 		# 6 blocks, and where cost jumps, it jumps between two rows of blocks.
 		awk '{ exit !($2 <= 1.3 && $5 >= 2) }' ratio || fail "not balanced: $(cat ratio)"
 	done ;;
+plan)
+	# The model's longest of 1, 2 and 4 parts, and what they take here.
+	half_scene > half.pov; size="+W96 +H192 --pilot-time 20s"
+	expect 0 half.pov $size --plan; prints "^nodes .*96 x 192 .*15360 x 30720"; prints "At least half of the nodes' time renders up to"
+	[ ! -e half.png ] && [ ! -e half.strips ] || fail "--plan renders"
+	command -v gnuplot > /dev/null && { grep -q '</svg>' half.plan.svg || fail "no plot"; }
+	for parts in 1 2 4; do
+		expect 0 half.pov $size --parts $parts --local 2
+		eval "folder_$parts=\$(folder)"
+	done
+	python3 "$here/plan.py" half.plan.json "$folder_1" "$folder_2" "$folder_4" || fail "the model is wrong"
+	mkdir path; for tool in sh env; do ln -s "$(command -v $tool)" path/; done; ln -s "$(python3 -c "import sys; print(sys.executable)")" path/python3
+	(PATH=$work/path "$strips" half.pov +W48 +H48 --pilot-time 1s --plan > out 2> err) || fail "without gnuplot"
+	says "no plot; it needs gnuplot"
+	scene s.pov perspective; expect 1 s.pov $small --plan; says "needs the pilot"
+	expect 2 s.pov $small --plan --local 2; says "renders no picture"
+	expect 2 s.pov $small --plan +KFI1 +KFF3; says "is about one picture" ;;
 *) echo "no such case: $case"; exit 99 ;;
 esac
 echo "all well"

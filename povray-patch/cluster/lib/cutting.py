@@ -5,10 +5,10 @@
 FIRST_STRIP = 2
 
 
-def _strips_within(sums, rows, margin, bound):
-	"""Strips from the top, each as high as `bound` seconds allow, with the margin rows that it traces too."""
+def _strips_within(sums, rows, margin, bound, most=None):
+	"""Strips from the top, each as high as `bound` seconds allow, with the margin rows that it traces too; no more of them than one above `most`."""
 	strips, first = [], 0
-	while first < rows:
+	while first < rows and (most is None or len(strips) <= most):
 		above = sums[max(0, first - margin)]
 		last = first if first > 0 else min(rows, FIRST_STRIP) - 1
 		# By halves: the cost grows with the last row.
@@ -24,23 +24,41 @@ def _strips_within(sums, rows, margin, bound):
 	return strips
 
 
-def cut(row_seconds, parts, margin=0):
-	"""At most `parts` strips (first, last), counted from 0, whose costliest is as cheap as it can be."""
-	rows = len(row_seconds)
-	least = max(sum(row_seconds) / rows * 1e-3, 1e-12)     # a row costs something, whatever was measured
+def _sums(row_seconds):
+	least = max(sum(row_seconds) / len(row_seconds) * 1e-3, 1e-12)     # a row costs something, whatever was measured
 	sums = [0.0]
 	for seconds in row_seconds:
 		sums.append(sums[-1] + max(seconds, least))
+	return sums
+
+
+def _cheapest(sums, parts, margin):
+	"""At most `parts` strips whose costliest is as cheap as it can be."""
+	rows = len(sums) - 1
 	low, high = 0.0, sums[-1]
 	best = _strips_within(sums, rows, margin, high)
 	for _ in range(60):
 		middle = (low + high) / 2
-		strips = _strips_within(sums, rows, margin, middle)
+		if high - low < 1e-6 * high:
+			break
+		strips = _strips_within(sums, rows, margin, middle, parts)
 		if len(strips) <= parts:
 			best, high = strips, middle
 		else:
 			low = middle
-	return _evened(best, sums, rows, margin)
+	return best
+
+
+def cut(row_seconds, parts, margin=0):
+	"""At most `parts` strips (first, last), counted from 0, whose costliest is as cheap as it can be."""
+	sums = _sums(row_seconds)
+	return _evened(_cheapest(sums, parts, margin), sums, len(row_seconds), margin)
+
+
+def longest(row_seconds, parts, margin=0):
+	"""Seconds of the costliest strip of cut()."""
+	sums, rows = _sums(row_seconds), len(row_seconds)
+	return max(sums[min(rows, last + 1 + margin)] - sums[max(0, first - margin)] for first, last in _cheapest(sums, parts, margin))
 
 
 def _evened(strips, sums, rows, margin):

@@ -10,6 +10,7 @@ from common import DONE, Failure, catch_signals, program, read_json, refused, us
 from join import command, join, status_text
 from light import make_light
 from part import render_task
+from planning import plan
 from pilot import make_cut, task_count
 from scene import files_of, frame_name, inspect, output_name
 from strips_options import HELP, parse
@@ -31,8 +32,8 @@ def main(words, script):
 def _do(values, script):
 	if "--part" in values:
 		render_task(load(values["own"][0]), values["--part"])
-	elif "--plan" in values:
-		sub = load(values["--plan"])
+	elif "--cut" in values:
+		sub = load(values["--cut"])
 		make_light(sub)
 		make_cut(sub)
 	elif "--join" in values:
@@ -41,6 +42,8 @@ def _do(values, script):
 		print(status_text(load(values["--status"]), script))
 	elif "--resume" in values:
 		return _resume(load(values["--resume"]), values, script)
+	elif "--plan" in values:
+		plan(_describe(values, script), script)
 	else:
 		return _submit(values, script)
 	return DONE
@@ -107,7 +110,7 @@ def _run_here(sub, tasks, at_once, script):
 	local.check(at_once)
 	python = [sys.executable, script]
 	log = f"{sub['folder']}/log"
-	if load_cut(sub) is None and local.run_all([("pilot", python + ["--plan", sub["folder"]])], 1, log):
+	if load_cut(sub) is None and local.run_all([("pilot", python + ["--cut", sub["folder"]])], 1, log):
 		with open(f"{log}/pilot.txt", encoding="utf-8") as file:
 			raise refused(f"the pilot failed:\n{file.read().strip()}")
 	tasks = [task for task in tasks if task < len(load_cut(sub)["tasks"])]
@@ -125,7 +128,7 @@ def _run_there(sub, tasks, script):
 	pilot = None
 	try:
 		if load_cut(sub) is None:
-			pilot = slurm.sbatch(f"{name}-pilot", folder, "pilot.txt", words + ["--plan", shlex.quote(folder)], threads + options)
+			pilot = slurm.sbatch(f"{name}-pilot", folder, "pilot.txt", words + ["--cut", shlex.quote(folder)], threads + options)
 			jobs.append(pilot)
 		array = None
 		if tasks:

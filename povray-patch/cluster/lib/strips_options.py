@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """povray-strips' command line. The help is laid out as the other programs' is: cmake/help-to-man.awk makes the man page of it."""
 import re
-import shlex
 
 from common import usage
+from words import parse as parse_words
 
 HELP = """povray-strips: renders one picture, or a film, in parts: on a Slurm cluster, or on this machine with --local. The parts are strips of
 rows of equal predicted cost; the joined picture has the pixels of one process.
@@ -20,6 +20,7 @@ Options:
   --nodes INT                 at most so many parts at once on the cluster [as many as Slurm gives]
   --cpus INT                  threads of a part [1]
   --dry-run                   say what would be submitted, and submit nothing
+  --plan                      measure, and say how long the picture takes on 1 to 1000 nodes, up to 16k: PICTURE.plan.json, .svg
   --sbatch TEXT               words for sbatch, such as '--partition=long --time=2:00:00 --mem=8G'; repeatable
   --light                     radiosity and photons once, for all parts; the scene must ask for it (see below)
   --pilot-time TEXT           how long tiltcost's pilot may trace [10s]
@@ -32,7 +33,7 @@ Options:
   --resume TEXT               submit again what is missing of this submission, or render it with --local
   --part INT                  render one part of the submission in FOLDER, here: --part NUMBER FOLDER
   --join TEXT                 join this submission's parts, here
-  --plan TEXT                 cut this submission's picture, here; the first job does so
+  --cut TEXT                  cut this submission's picture, here; the first job does so
 
 SCENE is a .pov or .ini file; what begins with one + or -, and NAME=value, goes to POV-Ray (+W +H +L +O +KFF Declare=..).
 Three jobs are submitted: the pilot, which cuts the picture; an array of the parts; and the join, which waits for all. Ids, how to watch and
@@ -57,10 +58,10 @@ Examples:
 Exit codes: 0 done or submitted, 1 refused or a part failed, 2 wrong usage, 3 unreadable or unwritable file, 128 + signal interrupted.
 """
 
-TEXT = {"--sbatch", "--pilot-time", "--setting", "--povray", "--status", "--resume", "--join", "--plan"}
+TEXT = {"--sbatch", "--pilot-time", "--setting", "--povray", "--status", "--resume", "--join", "--cut"}
 NUMBER = {"--parts", "--local", "--nodes", "--cpus", "--pilot-blocks", "--part"}
-FLAG = {"--dry-run", "--light", "--equal-rows", "--scene-may-write"}
-ACTIONS = ("--status", "--resume", "--join", "--plan")
+FLAG = {"--dry-run", "--plan", "--light", "--equal-rows", "--scene-may-write"}
+ACTIONS = ("--status", "--resume", "--join", "--cut")
 
 
 def is_for_povray(word):
@@ -69,32 +70,8 @@ def is_for_povray(word):
 
 def parse(words):
 	"""Values by option, and under "own" the plain words, under "povray" POV-Ray's, in their order."""
-	values = {"own": [], "povray": [], "--sbatch": []}
-	words = list(words)
-	while words:
-		word = words.pop(0)
-		if not word.startswith("--"):
-			values["povray" if is_for_povray(word) else "own"].append(word)
-			continue
-		name, equals, value = word.partition("=")
-		if name in FLAG and not equals:
-			values[name] = True
-			continue
-		if name not in TEXT | NUMBER:
-			raise usage(f"no option {word}; povray-strips --help lists them")
-		if not equals:
-			if not words:
-				raise usage(f"{name} needs a value")
-			value = words.pop(0)
-		if name == "--sbatch":
-			values[name] += shlex.split(value)
-		elif name in NUMBER:
-			least = 0 if name == "--part" else 1
-			if not re.fullmatch(r"\d{1,7}", value) or int(value) < least:
-				raise usage(f"{name}: '{value}' is no number from {least} to 9999999")
-			values[name] = int(value)
-		else:
-			values[name] = value
+	values = parse_words("povray-strips", words, TEXT, NUMBER, FLAG, lists=("--sbatch",), is_other=is_for_povray, from_zero=("--part",))
+	values["povray"] = values.pop("other")
 	return _checked(values)
 
 
@@ -110,6 +87,8 @@ def _checked(values):
 			raise usage(f"{actions[0]} FOLDER: the scene and its options are those of the submission")
 	elif not values["own"]:
 		raise usage("SCENE is required; povray-strips --help shows examples")
+	if "--plan" in values and ("--local" in values or "--dry-run" in values):
+		raise usage("--plan renders no picture: leave out --local and --dry-run")
 	if "--nodes" in values and "--local" in values:
 		raise usage("--nodes and --local exclude each other")
 	if "--setting" in values and not re.fullmatch(r"\d+,\d+,[\d.eE+-]+(,[\d.]+)?", values["--setting"]):
