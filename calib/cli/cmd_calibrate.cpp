@@ -284,7 +284,11 @@ void Run(const Options& o, const std::string& command_line)
 	PrepareFolder(o.out);
 
 	MeasuredPictures pictures(AllFiles(states).size());
+	const Stopwatch stopwatch;
+	const std::clock_t processors = std::clock();
 	Task task = MeasureAll(states, board, pitch, measure, [&](size_t number, const cv::Mat& grey) { pictures.Add(number, grey); });
+	const double seconds = stopwatch.Seconds();
+	spdlog::info("measured in {:.1f} s, {:.2f} processors at work", seconds, double(std::clock() - processors) / CLOCKS_PER_SEC / seconds);
 	task.priors = known.priors;
 	task.blades = known.blades;
 	task.untilted_free = o.untilted_free;

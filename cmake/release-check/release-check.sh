@@ -2,9 +2,10 @@
 # usage: release-check.sh TABLE FOLDER [STEP...]
 # Runs the steps of TABLE (lines "NAME | COMMAND", # for remarks) in this folder, one after the other, also after one that failed; all, or
 # those named. FOLDER receives NAME.log of each, and release-check.md: what passed, how long it took, and the command of each. A command that
-# exits with 77 could not be run here, and its last line says why. Exit code 0: all passed or were skipped, 1: some failed, 2: usage.
+# exits with 77 could not be run here, and its last line says why. What passed for this very commit, without changes beside it, is not run
+# again, unless it is named: an interrupted check goes on. Exit code 0: all passed or were skipped, 1: some failed, 2: usage.
 set -u
-[ $# -ge 2 ] || { sed -n '2,6s/^# *//p' "$0" >&2; exit 2; }
+[ $# -ge 2 ] || { sed -n '2,7s/^# *//p' "$0" >&2; exit 2; }
 table=$1 folder=$2; shift 2
 wanted=" $* "
 [ -f "$table" ] || { echo "release-check: $table: no such table" >&2; exit 2; }
@@ -14,8 +15,11 @@ for name in "$@"; do
 done
 mkdir -p "$folder" || exit 2
 page=$folder/release-check.md rows=$folder/rows
-rm -f "$folder"/*.log "$page"
+rm -f "$page"
 : >"$rows"
+for log in "$folder"/*.log; do [ -e "${log%.log}.passed" ] || rm -f "$log"; done
+# The commit, or nothing where that does not say what is checked.
+commit=$(git rev-parse HEAD 2>/dev/null) && [ -z "$(git status --porcelain)" ] || commit=
 passed=0 failed=0 skipped=0 begun=$(date +%s) running=
 
 took() { # SECONDS
@@ -43,6 +47,13 @@ while IFS= read -r line <&3; do
 	name=${line%% |*} command=${line#* | }
 	case $wanted in '  ' | *" $name "*) ;; *) continue ;; esac
 	running=$name
+	if [ "$wanted" = '  ' ] && [ -n "$commit" ] && [ "$(head -n 1 "$folder/$name.passed" 2>/dev/null)" = "$commit $command" ]; then
+		passed=$((passed + 1))
+		sed -n 2p "$folder/$name.passed" >>"$rows"
+		echo "release-check: $name: passed before"
+		continue
+	fi
+	rm -f "$folder/$name.passed"
 	echo "release-check: $name: $command"
 	start=$(date +%s)
 	sh -c "$command" >"$folder/$name.log" 2>&1 </dev/null
@@ -52,7 +63,9 @@ while IFS= read -r line <&3; do
 	77) result=skipped skipped=$((skipped + 1)) ;;
 	*) result="**failed** ($code)" failed=$((failed + 1)) ;;
 	esac
-	echo "| [$name]($name.log) | $result | $(took $(($(date +%s) - start))) | <code>$(echo "$command" | cell)</code> | $(grep -v '^[[:space:]]*$' "$folder/$name.log" | tail -n 1 | cell) |" >>"$rows"
+	row="| [$name]($name.log) | $result | $(took $(($(date +%s) - start))) | <code>$(echo "$command" | cell)</code> | $(grep -v '^[[:space:]]*$' "$folder/$name.log" | tail -n 1 | cell) |"
+	echo "$row" >>"$rows"
+	[ $code != 0 ] || printf '%s\n%s\n' "$commit $command" "$row" >"$folder/$name.passed"
 	write_page "running"
 	echo "release-check: $name: $result"
 done 3<"$table"

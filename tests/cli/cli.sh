@@ -197,6 +197,7 @@ flat_field)
 	printf '\211\120\116\107\015\012\032\012\000\000\000\015\111\110\104\122\000\000\000\001\000\000\000\001\010\000\000\000\000\072\176\233\125\000\000\000\012\111\104\101\124\170\234\143\250\000\000\000\172\000\171\263\141\265\173\000\000\000\000\111\105\116\104\256\102\140\202' >one.png
 	refuses 1 "--flat-field.*is 1x1 pixels" "$@" --flat-field untilted=one.png ;;
 bad_edges_per_photo)
+	for threads in -1 5000; do calibrate 2 "--threads $threads: give 0 for all processors" "$target/untilted-1.jpg" --threads=$threads; done
 	for n in -1 3 11 2.5 many; do calibrate 2 "--edges-per-photo.*$n" "$target/untilted-1.jpg" --edges-per-photo=$n; done ;;
 few_edges) # twelve edges of one photograph do not make a calibration
 	calibrate 1 "only 12 edges.*--edges-per-photo" "$target/untilted-1.jpg" --edges-per-photo 12 ;;

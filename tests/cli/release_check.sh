@@ -31,6 +31,18 @@ runs)
 	kill -TERM $pid; kill $(ps -o pid= --ppid $pid)
 	wait $pid; [ $? = 130 ] || fail "exit code of an interrupted check"
 	page '^# Release check: interrupted in endless$'; page '\[first\]' ;;
+goes_on)
+	# What passed for this commit is not run again: not after a failure, but for another commit, with a change, or where it is named.
+	calls() { [ "$(wc -l <calls)" = "$1" ] || fail "$2: $(cat calls)"; : >calls; }
+	printf '%s\n' 'one | echo one >>calls; echo said' 'two | echo two >>calls; test -e good' >table
+	printf '%s\n' folder calls out good >.gitignore
+	git init -q . && git config user.email a@b && git config user.name a && git add table .gitignore && git commit -qm one || exit 99
+	check 1 table folder; calls 2 "the first time"
+	touch good; check 0 table folder; calls 1 "passed before"; page '^| \[one\](one.log) | passed | .* | said |$'; page '^2 passed, 0 failed'; [ -s folder/one.log ] || fail "its log"
+	check 0 table folder one; calls 1 "named"
+	echo '# more' >>table; check 0 table folder; calls 2 "a change beside the commit"
+	git commit -qam two; check 0 table folder; calls 2 "another commit"
+	check 0 table folder; calls 0 "all passed before" ;;
 usage)
 	: >out; check 2; check 2 nowhere folder; grep -q "nowhere: no such table" out || fail "nowhere"
 	echo '# nothing' >empty; check 2 empty folder; grep -q "has no steps" out || fail "empty"
