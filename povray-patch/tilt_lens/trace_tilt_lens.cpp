@@ -193,12 +193,11 @@ bool TracePixel::SendRayThroughTiltLensWithEffects(Ray& ray)
 
 /// Traces the current lens sample in the current wavelength. Returns how much of its light
 /// arrives: `c`, transparency too, is multiplied by that. A ray of which nothing arrives is
-/// not traced.
+/// not traced. `paint` is what the bokeh pigment makes of its colours.
 template<bool Weighs, bool Paints>
-DBL TracePixel::TraceTiltLensRay(Ray& ray, tilt_lens::SampleSums& sums, Colour& c, DBL x, DBL y, DBL width, DBL height)
+DBL TracePixel::TraceTiltLensRay(Ray& ray, tilt_lens::SampleSums& sums, Colour& c, Colour& paint, DBL x, DBL y, DBL width, DBL height)
 {
 	DBL weight = 1.0;
-	Colour paint;
 
 	// remove interiors accumulated from previous sample (if any)
 	ray.ClearInteriors();
@@ -206,14 +205,17 @@ DBL TracePixel::TraceTiltLensRay(Ray& ray, tilt_lens::SampleSums& sums, Colour& 
 	{
 		// No ray, where the pixel looks along or behind the lens: empty, transparent.
 		c = Colour(0.0, 0.0, 0.0, 0.0, 1.0);
+		for(int i = 0; Paints && (i < 3); i++)
+			paint[i] = 1.0;
 		sums.stopped++;
 		return 1.0;
 	}
 	c.clear();
 	if(Weighs)
 		weight = tiltLensWeight;
-	if(Paints && (weight > 0.0))
+	if(Paints)
 	{
+		// Of rays that a rim stops too: their places belong to the opening.
 		paint = tilt_lens::BokehAt(camera.Bokeh, tiltLensPoint, threadData);
 		for(int i = 0; i < 3; i++)
 			paint[i] *= camera.Tilt_Lens.bokeh_gain[i];
@@ -242,26 +244,30 @@ DBL TracePixel::TraceTiltLensRay(Ray& ray, tilt_lens::SampleSums& sums, Colour& 
 template<bool Weighs, bool Paints, bool Splits>
 void TracePixel::AddTiltLensSample(Ray& ray, tilt_lens::SampleSums& sums, DBL x, DBL y, DBL width, DBL height)
 {
-	Colour c;
+	Colour c, paint;
 	DBL weight = 0.0;
 
 	if(!Splits)
-		weight = TraceTiltLensRay<Weighs, Paints>(ray, sums, c, x, y, width, height);
+		weight = TraceTiltLensRay<Weighs, Paints>(ray, sums, c, paint, x, y, width, height);
 	else
 	{
 		c.clear();
 		for(tiltLensWavelength = 0; tiltLensWavelength < tilt_lens::Wavelengths; tiltLensWavelength++)
 		{
-			Colour one;
-			weight += TraceTiltLensRay<Weighs, Paints>(ray, sums, one, x, y, width, height) / tilt_lens::Wavelengths;
+			Colour one, its_paint;
+			weight += TraceTiltLensRay<Weighs, Paints>(ray, sums, one, its_paint, x, y, width, height) / tilt_lens::Wavelengths;
 			c[tiltLensWavelength] = one[tiltLensWavelength];
+			paint[tiltLensWavelength] = its_paint[tiltLensWavelength];
 			c[pFILTER] += one[pFILTER] / tilt_lens::Wavelengths;
 			c[pTRANSM] += one[pTRANSM] / tilt_lens::Wavelengths;
 		}
 	}
 	if(Weighs)
 		sums.withheld += 1.0 - weight;
-	sums.Add(c);
+	if(Paints)
+		sums.AddPainted(c, paint);
+	else
+		sums.Add(c);
 }
 
 /// Goes on with a pixel until it has `samples` samples.
