@@ -16,6 +16,18 @@ function(add_man_page program frame)
 endfunction()
 
 add_man_page(tiltcal "${PROJECT_SOURCE_DIR}/calib/man/tiltcal.1.in" ${TILTCAL_SUBCOMMANDS})
+# A script is no target: the target that puts it into its place is cluster-programs.
+set(cluster_source "${PROJECT_SOURCE_DIR}/povray-patch/cluster")
+foreach(script strips:povray-strips batch:tiltcal-batch)
+	string(REGEX MATCH "(.*):(.*)" script "${script}")
+	set(program "${CMAKE_MATCH_2}")
+	add_custom_command(OUTPUT "${man_folder}/${program}.1"
+		COMMAND sh "${PROJECT_SOURCE_DIR}/cmake/make-man-page.sh" "${CMAKE_BINARY_DIR}/bin/${program}" "${cluster_source}/man/${program}.1.in" "${man_folder}/${program}.1"
+		DEPENDS cluster-programs "${cluster_source}/lib/${CMAKE_MATCH_1}_options.py" "${cluster_source}/man/${program}.1.in" "${PROJECT_SOURCE_DIR}/cmake/make-man-page.sh"
+			"${PROJECT_SOURCE_DIR}/cmake/help-to-man.awk"
+		COMMENT "Man page of ${program}" VERBATIM)
+	set_property(GLOBAL APPEND PROPERTY tilt_lens_man_pages "${man_folder}/${program}.1")
+endforeach()
 add_man_page(tiltcost "${PROJECT_SOURCE_DIR}/povray-patch/tiltcost/man/tiltcost.1.in")
 get_property(man_pages GLOBAL PROPERTY tilt_lens_man_pages)
 add_custom_target(man-pages ALL DEPENDS ${man_pages})

@@ -17,6 +17,8 @@ file(MAKE_DIRECTORY "${root}/usr/bin" "${root}/usr/share/man" "${doc}/examples" 
 file(CREATE_LINK ../lib/povray-tilt/bin/povray "${root}/usr/bin/povray-tilt" SYMBOLIC)
 file(CREATE_LINK ../lib/povray-tilt/bin/tiltcal "${root}/usr/bin/tiltcal" SYMBOLIC)
 file(CREATE_LINK ../lib/povray-tilt/bin/tiltcost "${root}/usr/bin/tiltcost" SYMBOLIC)
+file(CREATE_LINK ../lib/povray-tilt/bin/povray-strips "${root}/usr/bin/povray-strips" SYMBOLIC)
+file(CREATE_LINK ../lib/povray-tilt/bin/tiltcal-batch "${root}/usr/bin/tiltcal-batch" SYMBOLIC)
 
 # Links out of /usr are absolute, those within it relative: Debian's policy, 10.5.
 file(RENAME "${private}/share/povray-3.7" "${root}/usr/share/povray-tilt")
@@ -32,7 +34,7 @@ file(REMOVE "${root}/usr/share/povray-tilt/ini/povray.ini")
 
 # Documents, laid out so that their links lead somewhere, and the scenes with their pictures as examples.
 foreach(document README.md povray-patch/RENDERING.md povray-patch/REFERENCE.md povray-patch/ray-error.png povray-patch/LIMITS.md
-		povray-patch/COMING-FROM.md povray-patch/tiltcost/COSTS.md calib/CALIBRATING.md calib/CALIBRATION-JSON.md
+		povray-patch/COMING-FROM.md povray-patch/tiltcost/COSTS.md povray-patch/cluster/CLUSTER.md povray-patch/cluster/plan.svg calib/CALIBRATING.md calib/CALIBRATION-JSON.md
 		tests/accuracy/ACCURACY.md tests/cli/outside/tilts.cpp tests/cli/outside/CMakeLists.txt)
 	get_filename_component(folder "${document}" DIRECTORY)
 	file(COPY "${source}/${document}" DESTINATION "${doc}/${folder}")

@@ -12,7 +12,7 @@ packages="
 	libceres-dev libeigen3-dev libopencv-dev libcli11-dev nlohmann-json3-dev
 	libspdlog-dev libfmt-dev libgtest-dev libgmock-dev libbenchmark-dev libpugixml-dev
 	pkg-config libcairo2-dev fonts-dejavu-core poppler-utils
-	gnuplot-nox povray povray-includes
+	gnuplot-nox povray povray-includes slurm-wlm munge procps
 	dpkg-dev file man-db python3-jsonschema locales"
 # Wanted, but nothing fails without them (debootstrap: the workflow `package` tests in a clean root).
 optional="ccache debootstrap"
@@ -25,7 +25,7 @@ setup.sh knows apt only. Please install by your system's own names:
   Ceres Solver 2.1, Eigen 3, OpenCV 4, CLI11, nlohmann-json, spdlog, fmt,
   pkg-config, cairo, a sans-serif font, poppler's pdftoppm (for a test)
   GoogleTest, Google Benchmark, pugixml, gnuplot
-  povray 3.7 (stock, the tests' oracle), man (for a test), Python 3 with jsonschema 4 (for a test), the sources of a German locale (for a test), ccache (optional)
+  povray 3.7 (stock, the tests' oracle), man (for a test), Python 3 with jsonschema 4 (for a test), the sources of a German locale (for a test), Slurm and munge (for a test), ccache (optional)
   Fedora: gcc-c++ cmake ninja-build patch autoconf automake zlib-devel libpng-devel libjpeg-turbo-devel
           libtiff-devel exiv2-devel openexr-devel boost-devel ceres-solver-devel eigen3-devel opencv-devel cli11-devel
           json-devel spdlog-devel fmt-devel gtest-devel gmock-devel google-benchmark-devel pugixml-devel gnuplot povray ccache

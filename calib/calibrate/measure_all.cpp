@@ -3,11 +3,14 @@
 #include "calibrate/measure_all.h"
 
 #include "calibrate/exif_check.h"
+#include "calibrate/in_order.h"
 #include "calibrate/quiet.h"
+#include "calibrate/use_threads.h"
 #include "measure/bright_patches.h"
 #include "measure/measure.h"
 #include "model/state_names.h"
 #include "picture/image_io.h"
+#include "solve/least_squares.h"
 #include <tiltcal/calibrate.h>
 #include <tiltcal/error.h>
 
@@ -17,6 +20,7 @@
 #include <functional>
 #include <map>
 #include <string_view>
+#include <utility>
 
 namespace tiltcal
 {
@@ -45,12 +49,17 @@ void LogPhoto(const Photo& photo, size_t number, size_t total, const Log& log)
 class SeenPictures
 {
 public:
-	/// Throws Refused.
-	void Add(const std::string& file, const cv::Mat& grey)
+	static size_t Hash(const cv::Mat& grey)
 	{
 		size_t hash = 0;
 		for (int y = 0; y < grey.rows; ++y)
 			hash = 31 * hash + std::hash<std::string_view>()({ grey.ptr<char>(y), size_t(grey.cols) * grey.elemSize() });
+		return hash;
+	}
+
+	/// Throws Refused.
+	void Add(const std::string& file, size_t hash)
+	{
 		const auto [at, is_new] = files.emplace(hash, file);
 		if (!is_new)
 			throw Refused(fmt::format("{}: has the pixels of {}: the same photograph twice makes sigmas too small, and in two states one of them is wrong; leave one out", file, at->second));
@@ -97,33 +106,36 @@ Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, doubl
 Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, double pitch_mm, const MeasureOptions& o, const SeePicture& see)
 {
 	const QuietLibraries quiet;
+	const UseThreads threads(o.threads);
 	CheckPitch(pitch_mm);
 	CheckStateNames(NamesOf(states));
 	Task task;
 	task.board = board;
 	task.pitch_mm = pitch_mm;
-	SeenPictures seen;
-	size_t total = 0, number = 0;
-	for (const StateFiles& s : states)
-		total += s.files.size();
+	std::vector<std::pair<size_t, std::string>> files;    // state, file
 	for (const StateFiles& s : states)
 	{
-		State state;
-		state.name = s.name;
-		state.tilted = !task.states.empty();
 		for (const std::string& file : s.files)
-		{
-			cv::Mat grey;
-			Photo photo = MeasurePhoto(file, board, o.transfer, { o.any_orientation }, { o.edges_per_photo, o.edge_phase }, &grey);
-			LogPhoto(photo, ++number, total, o.log);
-			CheckSize(task, photo);
-			seen.Add(file, grey);
-			state.photos.push_back(std::move(photo));
-			if (see)
-				see(grey);
-		}
-		task.states.push_back(std::move(state));
+			files.emplace_back(task.states.size(), file);
+		task.states.push_back({ s.name, !task.states.empty(), {} });
 	}
+	std::vector<Photo> photos(files.size());
+	std::vector<size_t> hashes(files.size());
+	SeenPictures seen;
+	InOrder(files.size(), AllThreads(), [&](size_t k)
+	{
+		cv::Mat grey;
+		photos[k] = MeasurePhoto(files[k].second, board, o.transfer, { o.any_orientation }, { o.edges_per_photo, o.edge_phase }, &grey);
+		hashes[k] = SeenPictures::Hash(grey);
+		if (see)
+			see(k, grey);
+	}, [&](size_t k)
+	{
+		LogPhoto(photos[k], k + 1, files.size(), o.log);
+		CheckSize(task, photos[k]);
+		seen.Add(files[k].second, hashes[k]);
+		task.states[files[k].first].photos.push_back(std::move(photos[k]));
+	});
 	LogFacts(task, o.log);
 	return task;
 }

@@ -12,8 +12,9 @@
 namespace tiltcal
 {
 
-/// A photograph's brightness in linear light (CV_32F), as it was measured.
-using SeePicture = std::function<void(const cv::Mat& grey)>;
+/// Photograph `number` of all, counted from 0: its brightness in linear light (CV_32F), as it was measured. Called from any thread and
+/// in any order.
+using SeePicture = std::function<void(size_t number, const cv::Mat& grey)>;
 
 /// MeasureAll, which shows every photograph when it is measured, so that nobody reads it again. `see` may be empty.
 Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, double pitch_mm, const MeasureOptions& options, const SeePicture& see);

@@ -16,12 +16,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tiltcal
 {
 
 namespace
 {
+
+/// A misfit of blur is noise up to so much of it.
+const double MOST_OF_NOISE = 3;
+
+/// Of one edge's blur, the middle one of all; infinite without edges.
+double NoiseOfBlur(const Task& task)
+{
+	std::vector<double> noise;
+	for (const State& state : task.states)
+		for (const Photo& photo : state.photos)
+			for (const Edge& e : photo.edges)
+				noise.push_back(e.blur_sigma);
+	return noise.empty() ? std::numeric_limits<double>::infinity() : Median(std::move(noise));
+}
 
 class Judgement
 {
@@ -193,17 +208,10 @@ private:
 
 	void Limit()
 	{
-		std::vector<double> noise;
-		for (const State& state : c.task.states)
-			for (const Photo& photo : state.photos)
-				for (const Edge& e : photo.edges)
-					noise.push_back(e.blur_sigma);
-		if (noise.empty())
-			return;
-		const double typical = Median(std::move(noise));
-		if (c.solution.rms_blur > 3 * typical)
+		const double rms = c.RealLensIsUsed() ? c.real_lens->rms_blur : c.solution.rms_blur;
+		if (rms > MOST_OF_NOISE * NoiseOfBlur(c.task))
 			Say(Grade::GOOD, fmt::format("the blur fits to {:.2f} px, its noise is {:.2f} px: what limits the result are aberrations that the model {} does not have, and the sigmas hold them only "
-				"as far as they scatter", c.solution.rms_blur, typical, NameOf(c.solution.model)));
+				"as far as they scatter", rms, NoiseOfBlur(c.task), NameOf(c.Answer())));
 	}
 
 	const Calibration& c;
@@ -212,6 +220,8 @@ private:
 };
 
 }
+
+bool AberrationsAreLeftOver(const Calibration& c) { return c.solution.rms_blur > MOST_OF_NOISE * NoiseOfBlur(c.task); }
 
 Verdict Judge(const Calibration& calibration)
 {

@@ -2,6 +2,7 @@
 
 #include "camera/camera_block.h"
 
+#include "camera/real_lens_words.h"
 #include "model/names.h"
 #include "model/projection.h"
 
@@ -115,6 +116,8 @@ std::string CameraBlockOf(const StateCamera& camera, const Place& place, double 
 {
 	BlockLayout layout;
 	layout.place = PlaceLines(camera, place, unit_mm);
+	if (camera.aberrations)
+		layout.lens_words = RealLensWords(RealLensOf(*camera.aberrations, unit_mm), tilt_lens::ThirdOrderTerms);
 	return CameraBlockText(camera, PlainNumbers(unit_mm), layout);
 }
 

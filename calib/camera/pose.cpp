@@ -78,10 +78,10 @@ std::vector<PosePoint> Mirrored(std::vector<PosePoint> points)
 
 /// Fits the mirrored world too, and refuses when it explains the picture far better: points in
 /// one plane fit both ways and pass.
-void RefuseMirrored(const StateCamera& camera, const std::vector<PosePoint>& points, const std::vector<PoseMinimum>& minima, const std::string& file)
+void RefuseMirrored(const StateCamera& camera, const std::vector<PosePoint>& points, const std::vector<PoseMinimum>& minima, const std::string& file, double unit_mm)
 {
 	double scale = 0;
-	const std::vector<PoseMinimum> mirrored = PoseFit(camera, Mirrored(points)).Minima(scale);
+	const std::vector<PoseMinimum> mirrored = PoseFit(camera, Mirrored(points), unit_mm).Minima(scale);
 	if (mirrored.empty())
 		return;
 	const double other = Rms(mirrored[0].misfit, points.size());
@@ -156,16 +156,16 @@ void RefuseOutside(const StateCamera& c, const std::vector<PosePoint>& points, c
 				file, p.line, p.u, p.v, c.width, c.height));
 }
 
-CameraPose SolvePose(const StateCamera& camera, const std::vector<PosePoint>& points, const std::string& file)
+CameraPose SolvePose(const StateCamera& camera, const std::vector<PosePoint>& points, const std::string& file, double unit_mm)
 {
 	RefuseNowhere(points, file);
 	RefuseFew(points, file);
 	RefuseOutside(camera, points, file);
-	const PoseFit fit(camera, points);
+	const PoseFit fit(camera, points, unit_mm);
 	RefuseLine(fit, file);
 	double scale = 0;
 	const std::vector<PoseMinimum> minima = fit.Minima(scale);
-	RefuseMirrored(camera, points, minima, file);
+	RefuseMirrored(camera, points, minima, file, unit_mm);
 	if (minima.empty())
 		RefuseBehind(fit, file);
 	const PoseMinimum& best = minima[0];

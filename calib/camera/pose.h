@@ -44,7 +44,8 @@ void RefuseOutside(const StateCamera& camera, const std::vector<PosePoint>& poin
 /// loss that is quadratic to three robust standard deviations. Throws Refused, naming `file` and
 /// line: fewer than 4 points, a point without a pixel, points on one line, outside the picture, behind the camera; a
 /// mirrored world fits far better; two poses fit equally; no camera fits.
-CameraPose SolvePose(const StateCamera& camera, const std::vector<PosePoint>& points, const std::string& file);
+/// Of a camera with aberrations by the mean of all rays to a pixel, for which it must know the scene's unit.
+CameraPose SolvePose(const StateCamera& camera, const std::vector<PosePoint>& points, const std::string& file, double unit_mm = 1);
 
 /// A camera block for the patched POV-Ray: location, direction, right and up are exact, so roll is kept. Before it
 /// TiltCal_Pose_Location, _Look_At and _Sky, for the macros of the other states; TiltCal_Pose_Camera = 0 leaves the block out.

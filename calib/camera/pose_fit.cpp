@@ -2,6 +2,8 @@
 
 #include "camera/pose_fit.h"
 
+#include "camera/real_lens_ray.h"
+
 #include "lens/angles.h"
 #include "model/projection.h"
 #include "base/robust.h"
@@ -34,6 +36,7 @@ struct PoseCost
 	const StateCamera& camera;
 	Vec3<double> normal;
 	PosePoint point;
+	Vec3<double> origin;
 
 	template<typename T>
 	bool operator()(const T* rotation, const T* location, T* residual) const
@@ -41,7 +44,7 @@ struct PoseCost
 		const T from_lens[3] = { point.world.x - location[0], point.world.y - location[1], point.world.z - location[2] };
 		T p[3];
 		ceres::QuaternionRotatePoint(rotation, from_lens, p);
-		const Vec3<T> P{ p[0], p[1], p[2] };
+		const Vec3<T> P{ p[0] - origin.x, p[1] - origin.y, p[2] - origin.z };
 		if (P.z <= T(1e-9) || P.x * normal.x + P.y * normal.y + P.z * normal.z <= T(1e-9))
 			return false;
 		const T w(camera.ImageDistancePx());
@@ -68,10 +71,10 @@ struct Blocks
 	}
 };
 
-void Build(const StateCamera& camera, const Vec3<double>& normal, const std::vector<PosePoint>& points, double loss_px, Blocks& blocks, ceres::Problem& problem)
+void Build(const StateCamera& camera, const Vec3<double>& normal, const std::vector<PosePoint>& points, const std::vector<Vec3<double>>& origins, double loss_px, Blocks& blocks, ceres::Problem& problem)
 {
-	for (const PosePoint& p : points)
-		problem.AddResidualBlock(new ceres::AutoDiffCostFunction<PoseCost, 2, 4, 3>(new PoseCost{ camera, normal, p }),
+	for (size_t i = 0; i < points.size(); ++i)
+		problem.AddResidualBlock(new ceres::AutoDiffCostFunction<PoseCost, 2, 4, 3>(new PoseCost{ camera, normal, points[i], origins[i] }),
 			new ceres::HuberLoss(loss_px), blocks.rotation, blocks.location);
 	problem.SetManifold(blocks.rotation, new ceres::QuaternionManifold);
 }
@@ -90,8 +93,8 @@ PoseMinimum FromOpenCv(const cv::Mat& rvec, const cv::Mat& tvec)
 
 }
 
-PoseFit::PoseFit(const StateCamera& the_camera, const std::vector<PosePoint>& the_points)
-	: camera(the_camera), normal(the_camera.LensNormal()), points(the_points)
+PoseFit::PoseFit(const StateCamera& the_camera, const std::vector<PosePoint>& the_points, double unit_mm)
+	: camera(the_camera), normal(the_camera.LensNormal()), points(the_points), origins(the_points.size(), { 0, 0, 0 })
 {
 	const double n = static_cast<double>(points.size());
 	for (const PosePoint& p : points)
@@ -105,6 +108,13 @@ PoseFit::PoseFit(const StateCamera& the_camera, const std::vector<PosePoint>& th
 	places /= spread;
 	for (size_t i = 0; i < points.size(); ++i)
 		points[i].world = { places(long(i), 0), places(long(i), 1), places(long(i), 2) };
+	for (size_t i = 0; i < points.size() && camera.aberrations; ++i)
+	{
+		const CameraRay ray = MeanRayThroughLens(camera, { points[i].u, points[i].v });
+		points[i].u = camera.principal_point[0] + camera.ImageDistancePx() * ray.direction.x;
+		points[i].v = camera.principal_point[1] - camera.ImageDistancePx() * ray.direction.y;
+		origins[i] = (1 / (unit_mm * spread)) * ray.origin;
+	}
 	const Eigen::JacobiSVD<Eigen::MatrixXd> svd(places, Eigen::ComputeThinV);
 	extents.head(svd.singularValues().size()) = svd.singularValues();
 	flat_normal = svd.matrixV().col(2);
@@ -178,7 +188,7 @@ bool PoseFit::Refine(double loss_px, PoseMinimum& m) const
 {
 	Blocks blocks(m);
 	ceres::Problem problem;
-	Build(camera, normal, points, loss_px, blocks, problem);
+	Build(camera, normal, points, origins, loss_px, blocks, problem);
 	const std::optional<double> cost = SolveLeastSquares({ ceres::DENSE_QR, 200, 1e-14, 1e-13, 1e-14 }, problem);
 	if (!cost)
 		return false;
@@ -192,10 +202,10 @@ std::vector<Eigen::Vector2d> PoseFit::Residuals(const PoseMinimum& m) const
 {
 	const Blocks blocks(m);
 	std::vector<Eigen::Vector2d> residuals;
-	for (const PosePoint& p : points)
+	for (size_t i = 0; i < points.size(); ++i)
 	{
 		residuals.emplace_back(Eigen::Vector2d::Zero());
-		PoseCost{ camera, normal, p }(blocks.rotation, blocks.location, residuals.back().data());
+		PoseCost{ camera, normal, points[i], origins[i] }(blocks.rotation, blocks.location, residuals.back().data());
 	}
 	return residuals;
 }
@@ -239,7 +249,7 @@ bool PoseFit::Covariance(const PoseMinimum& m, double scale_px, Eigen::Matrix<do
 {
 	Blocks blocks(m);
 	ceres::Problem problem;
-	Build(camera, normal, points, LOSS_SIGMAS * scale_px, blocks, problem);
+	Build(camera, normal, points, origins, LOSS_SIGMAS * scale_px, blocks, problem);
 	ceres::Covariance::Options options;
 	options.algorithm_type = ceres::DENSE_SVD;
 	ceres::Covariance computed(options);

@@ -27,7 +27,8 @@ struct PoseMinimum
 class PoseFit
 {
 public:
-	PoseFit(const StateCamera& camera, const std::vector<PosePoint>& points);
+	/// `unit_mm`: of the world's unit, which a camera with aberrations needs to know.
+	PoseFit(const StateCamera& camera, const std::vector<PosePoint>& points, double unit_mm);
 
 	/// Every local minimum that is found, best first, in the normalised world; empty when no
 	/// start has all points in front of the lens. `scale_px` receives the standard deviation
@@ -58,7 +59,8 @@ private:
 
 	StateCamera camera;
 	Vec3<double> normal;
-	std::vector<PosePoint> points;          ///< normalised
+	std::vector<PosePoint> points;          ///< normalised; through a real lens the pixels of a pinhole that sees the same rays
+	std::vector<Vec3<double>> origins;      ///< of these rays, camera frame, normalised
 	Eigen::Vector3d centroid = Eigen::Vector3d::Zero(), extents = Eigen::Vector3d::Zero(), flat_normal = Eigen::Vector3d::UnitZ();
 	double spread = 1;
 };

@@ -19,6 +19,14 @@ const double PER_MILLE = 1000;
 
 }
 
+tilt_lens::RealLens<double> RealLensOf(const CameraAberrations& a, double unit_mm)
+{
+	tilt_lens::RealLens<double> lens{ a.pupil_magnification, unit_mm / a.focal_length_mm, { {}, a.radius_mm / unit_mm } };
+	for (size_t k = 0; k < a.mm.size(); ++k)
+		lens.aberrations.c[k] = a.mm[k] / unit_mm;
+	return lens;
+}
+
 std::string RealLensWords(const tilt_lens::RealLens<double>& lens, int terms)
 {
 	const double f = 1 / lens.power;

@@ -5,6 +5,8 @@
 
 #include "lens/aberrations.h"
 
+#include <tiltcal/camera.h>
+
 #include <string>
 
 namespace tiltcal
@@ -12,6 +14,9 @@ namespace tiltcal
 
 /// The words `pupil_magnification` and `aberrations` of the tilt_lens block, indented by two tabs. `terms`: ThirdOrderTerms or all.
 std::string RealLensWords(const tilt_lens::RealLens<double>& lens, int terms);
+
+/// Its lengths in units of `unit_mm`.
+tilt_lens::RealLens<double> RealLensOf(const CameraAberrations& aberrations, double unit_mm = 1);
 
 }
 

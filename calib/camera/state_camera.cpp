@@ -3,6 +3,7 @@
 #include "camera/state_camera.h"
 
 #include "model/names.h"
+#include "model/thin_lens_of_real.h"
 #include "model/state_names.h"
 #include <tiltcal/error.h>
 #include "base/files.h"
@@ -11,6 +12,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include "lens/optical_vignetting.h"
+#include "lens/words.h"
 
 #include <cmath>
 #include <limits>
@@ -183,7 +185,7 @@ StateCamera ReadStateCamera(const std::string& file, const std::string& name)
 	const Node state = FindState(top, name);
 	StateCamera c;
 	c.state = state["name"].Text();
-	c.model = top["model"].Text();
+	c.model = top[json.contains("thin_model") ? "thin_model" : "model"].Text();
 	const Node size = top["image_size_px"];
 	size.NeedList(2);
 	c.width = size.At(0).Count();
@@ -195,16 +197,54 @@ StateCamera ReadStateCamera(const std::string& file, const std::string& name)
 	c.principal_point = { centre.At(0).Number(), centre.At(1).Number() };
 	for (size_t k = 0; k < 5; ++k)
 		c.distortion[k] = top["distortion"][DISTORTION_NAMES[k]].Number();
-	const Node tilt = state["lens_tilt_deg"];
+	// The thin camera's, where the file's answer is a real lens.
+	const Node thin = state.json->contains("thin") ? state["thin"] : state;
+	const Node tilt = thin["lens_tilt_deg"];
 	c.lens_tilt_deg = tilt.Number();
 	if (!(std::abs(c.lens_tilt_deg) < 90))
 		tilt.Fail(fmt::format("is {}, not between -90 and 90", c.lens_tilt_deg));
-	c.tilt_direction_deg = state["tilt_direction_deg"].Number();
+	c.tilt_direction_deg = thin["tilt_direction_deg"].Number();
 	c.focus_distance_mm = ReadFocus(state);
 	c.aperture_diameter_mm = top["aperture_diameter_mm"].NumberOr(0);
 	c.field_curvature_per_mm = top["field_curvature_per_mm"].NumberOr(0);
 	ReadEffects(top, c);
 	return c;
+}
+
+std::optional<StateCamera> ReadRealLensCamera(const std::string& file, const std::string& name)
+{
+	const Json json = Parse(file);
+	const Node top{ &json, file, "" };
+	if (!json.contains("real_lens") || !json["real_lens"].contains("used") || !top["real_lens"]["used"].Flag())
+		return std::nullopt;
+	StateCamera c = ReadStateCamera(file, name);
+	const Node lens = top["real_lens"], states = lens["states"];
+	states.NeedList(0);
+	for (size_t i = 0; i < states.json->size(); ++i)
+	{
+		const Node state = states.At(i);
+		if (state["name"].Text() != c.state)
+			continue;
+		CameraAberrations a{ lens["pupil_magnification"].Positive(), lens["focal_length_mm"].Positive(), 0, {} };
+		a.radius_mm = 0.5 * a.focal_length_mm / lens["f_stop_of_aberrations"].Positive();
+		for (size_t k = 0; k < a.mm.size(); ++k)
+			a.mm[k] = lens["aberrations"][tilt_lens::AberrationWords[k]].Number() * a.focal_length_mm / 1000;
+		c.model = "lens";
+		c.aperture_diameter_mm *= lens["aperture_diameter_mm"].Positive() / top["aperture_diameter_mm"].Positive();   // blades widen both
+		c.image_distance_mm = state["exit_pupil_to_sensor_mm"].Positive() / a.pupil_magnification;
+		const Node centre = state["principal_point_px"];
+		centre.NeedList(2);
+		c.principal_point = { centre.At(0).Number(), centre.At(1).Number() };
+		c.lens_tilt_deg = state["lens_tilt_deg"].Number();
+		c.tilt_direction_deg = state["tilt_direction_deg"].Number();
+		const Vec3<double> n = c.LensNormal();
+		c.focus_distance_mm = 1 / (n.z * PowerOfThinLens(a.pupil_magnification, 1 / a.focal_length_mm, n.z, c.image_distance_mm) - 1 / c.image_distance_mm);
+		c.distortion = {};
+		c.field_curvature_per_mm = 0;
+		c.aberrations = a;
+		return c;
+	}
+	states.Fail(fmt::format("has no state {}", OneLine(c.state)));
 }
 
 std::string StateCameraJson(const StateCamera& c, const std::string& source)

@@ -7,6 +7,7 @@
 
 #include <tiltcal/camera.h>
 
+#include <optional>
 #include <string>
 
 namespace tiltcal
@@ -17,6 +18,9 @@ const int MOST_PIXELS_A_SIDE = 1000000;
 
 /// What one fit says of a state's camera, without any choice of effects.
 StateCamera CameraOfFit(const Task& task, const Solution& solution, const Geometry& geometry, size_t state);
+
+/// The same through the real lens, where that is the file's answer: StateCamera::aberrations. Throws as ReadStateCamera.
+std::optional<StateCamera> ReadRealLensCamera(const std::string& file, const std::string& state);
 
 /// A calibration.json with this one state, for ReadStateCamera. An unknown focus and an unknown aperture are null.
 std::string StateCameraJson(const StateCamera& camera, const std::string& source);

@@ -8,6 +8,7 @@
 #include <tiltcal/calibrate.h>
 #include "camera/camera_block.h"
 #include "camera/camera_macros.h"
+#include "camera/write_lens_inc.h"
 #include "effects/effects.h"
 #include "base/files.h"
 #include "base/plain_text.h"
@@ -131,6 +132,22 @@ std::string Macro(const Calibration& c, size_t s, const std::string& p)
 	return CameraMacros(p, "the lens centre", CameraBlockText(CameraOfState(c, s), DeclaredNumbers(p), layout));
 }
 
+/// With and without distortion, and the macros.
+std::string ThinLensPart(const Calibration& c, size_t s, const std::string& p)
+{
+	std::string out;
+	const bool distorted = Uses(c, EffectId::DISTORTION);
+	if (distorted)
+		out += "// 1: with the lens's distortion, which acts about the tilted lens axis. 0: the best\n"
+			"// camera without it, fitted as such.\n"
+			"#ifndef (TiltCal_Distortion)\n\t#declare TiltCal_Distortion = 1;\n#end\n\n"
+			"#if (TiltCal_Distortion)\n\n" + Numbers(c, s, Distorted::YES, p) + "\n#else\n\n";
+	out += Numbers(c, s, Distorted::NO, p);
+	if (distorted)
+		out += "\n#end\n\n";
+	return out + Macro(c, s, p);
+}
+
 }
 
 std::string CameraInc(const Calibration& c, size_t s)
@@ -145,7 +162,7 @@ std::string CameraInc(const Calibration& c, size_t s)
 		"// World of the photographs' poses: origin at the board's first inner corner (or circle's centre), x along\n"
 		"// the columns, y up the rows, z into the board.\n"
 		"// Reprojection: {:.3f} px RMS {}.\n\n{}",
-		name, TILTCAL_VERSION, NameOf(c.solution.model), c.task.width, c.task.height, c.RenderGeometry().rms,
+		name, TILTCAL_VERSION, NameOf(c.Answer()), c.task.width, c.task.height, c.RenderGeometry().rms,
 		distorted ? fmt::format("without distortion, {:.3f} px with it", c.MainGeometry().rms) : "without distortion, which this lens does not need", BlurSamplesDefault());
 	if (Uses(c, EffectId::VIGNETTING_OPTICAL))
 	{
@@ -157,15 +174,13 @@ std::string CameraInc(const Calibration& c, size_t s)
 			  "// a blurred edge moves. 0: without it.\n";
 		out += "#ifndef (TiltCal_Rim)\n\t#declare TiltCal_Rim = 1;\n#end\n\n";
 	}
-	if (distorted)
-		out += "// 1: with the lens's distortion, which acts about the tilted lens axis. 0: the best\n"
-			"// camera without it, fitted as such.\n"
-			"#ifndef (TiltCal_Distortion)\n\t#declare TiltCal_Distortion = 1;\n#end\n\n"
-			"#if (TiltCal_Distortion)\n\n" + Numbers(c, s, Distorted::YES, p) + "\n#else\n\n";
-	out += Numbers(c, s, Distorted::NO, p);
-	if (distorted)
-		out += "\n#end\n\n";
-	return out + Macro(c, s, p);
+	const std::string thin = ThinLensPart(c, s, p);
+	if (!c.RealLensIsUsed())
+		return out + thin;
+	return out + "// 1: the real lens, which has the tilts that the calibration says and predicts photographs of the board best.\n"
+		"// 0: the thin lens that comes nearest to it, which is better at distances where no board stood.\n"
+		"#ifndef (TiltCal_Real_Lens)\n\t#declare TiltCal_Real_Lens = 0;\n#end\n\n#if (TiltCal_Real_Lens = 0)\n\n" + thin +
+		"\n#else\n\n" + RealLensPart(c, s) + "\n#end\n";
 }
 
 }

@@ -2,12 +2,10 @@
 
 #include "camera/write_lens_inc.h"
 
-#include "base/files.h"
 #include "camera/camera_block.h"
 #include "camera/camera_macros.h"
 #include "camera/real_lens_words.h"
 #include "model/projection.h"
-#include "model/state_names.h"
 #include <tiltcal/camera.h>
 
 #include <fmt/format.h>
@@ -41,6 +39,14 @@ StateCamera CameraOfLens(const Calibration& c, size_t s)
 	camera.sigma.tilt_direction_deg = state.lens.tilt_direction.sigma;
 	camera.focus_distance_mm = state.lens.focus_distance.value;
 	camera.sigma.focus_distance_mm = state.lens.focus_distance.sigma;
+	camera.lens_centre_mm = state.lens_centre_mm;
+	camera.aberrations = { m, lens.focal_length_mm.value, lens.radius_mm, {} };
+	for (size_t k = 0; k < lens.aberrations_mm.size(); ++k)
+		camera.aberrations->mm[k] = lens.aberrations_mm[k].value;
+	camera.focal_plane_tilt_deg = state.lens.focal_plane_tilt.value;
+	camera.sigma.focal_plane_tilt_deg = state.lens.focal_plane_tilt.sigma;
+	camera.focal_length_mm = state.lens.focal_length.value;
+	camera.sigma.focal_length_mm = state.lens.focal_length.sigma;
 	return camera;
 }
 
@@ -56,6 +62,10 @@ std::string Declares(const StateCamera& camera, const std::string& prefix)
 	declare("Tilt_Direction", camera.tilt_direction_deg, sigma.tilt_direction_deg, "degrees, 0 = recedes towards picture up, 90 = right");
 	declare("Focus_Distance", camera.focus_distance_mm, sigma.focus_distance_mm, "mm, along the axis, of the plane that the lens is focused on near its own axis");
 	declare("Image_Distance", camera.image_distance_mm, sigma.image_distance_mm, "mm; the exit pupil stands pupil_magnification times as far from the sensor");
+	declare("Focal_Plane_Tilt", camera.focal_plane_tilt_deg, sigma.focal_plane_tilt_deg, "degrees, of that plane");
+	declare("Focal_Length", camera.focal_length_mm, sigma.focal_length_mm, "mm, of the thin lens that stands for it near its axis");
+	declare("Principal_Point_X", camera.principal_point[0], sigma.principal_point[0], "px");
+	declare("Principal_Point_Y", camera.principal_point[1], sigma.principal_point[1], "px");
 	const Point shift = ShiftOfPicture(camera.width, camera.height, camera.principal_point);
 	declare("Shift_X", shift[0] * camera.pitch_mm, sigma.principal_point[0] * camera.pitch_mm, "mm");
 	declare("Shift_Y", shift[1] * camera.pitch_mm, sigma.principal_point[1] * camera.pitch_mm, "mm");
@@ -76,30 +86,17 @@ std::string Declares(const StateCamera& camera, const std::string& prefix)
 
 }
 
-std::string LensInc(const Calibration& c, size_t s)
+std::string RealLensPart(const Calibration& c, size_t s)
 {
 	const RealLens& found = *c.real_lens;
-	const std::string& name = c.task.states[s].name;
-	CheckStateName(name);
-	const std::string p = "TiltCal_" + name;
+	const std::string p = "TiltCal_" + c.task.states[s].name;
 	const StateCamera camera = CameraOfLens(c, s);
-	tilt_lens::RealLens<double> lens{ found.pupil_magnification.value, 1 / found.focal_length_mm.value, { {}, found.radius_mm } };
-	for (size_t k = 0; k < found.aberrations_mm.size(); ++k)
-		lens.aberrations.c[k] = found.aberrations_mm[k].value;
 	BlockLayout layout;
-	layout.lens_words = RealLensWords(lens, tilt_lens::ThirdOrderTerms);
+	layout.lens_words = RealLensWords(RealLensOf(*camera.aberrations), tilt_lens::ThirdOrderTerms);
 	layout.rims_only_if = camera.rims_mm.empty() ? "" : "TiltCal_Rim";
 	layout.place = MacroPlace(p, camera.width * camera.pitch_mm, camera.height * camera.pitch_mm);
-	std::string out = fmt::format(
-		"// lens-{}.inc, written by tiltcal {}: one real lens for all states, to be included in place of camera-{}.inc. World unit: 1 mm.\n"
-		"// Render at {} x {} pixels or any size of this aspect ratio.\n"
-		"// World of the photographs' poses: origin at the board's first inner corner (or circle's centre), x along\n"
-		"// the columns, y up the rows, z into the board.\n"
-		"// Focal length {:.6g} +- {:.2g} mm; the places of edges fit to {:.3f} px, their blurs to {:.3f} px.\n\n{}",
-		name, TILTCAL_VERSION, name, camera.width, camera.height, found.focal_length_mm.value, found.focal_length_mm.sigma, found.rms_place, found.rms_blur, BlurSamplesDefault());
-	if (!camera.rims_mm.empty())
-		out += "// 1: with the rims beside the aperture. 0: without them.\n#ifndef (TiltCal_Rim)\n\t#declare TiltCal_Rim = 1;\n#end\n";
-	return out + "\n" + Declares(camera, p) + PhotoPoses(p, c.task.states[s].photos, found.states[s].poses) + "\n" +
+	return fmt::format("// One real lens for all states: focal length {:.6g} +- {:.2g} mm; the places of edges fit to {:.3f} px, their blurs to {:.3f} px.\n", found.focal_length_mm.value,
+		found.focal_length_mm.sigma, found.rms_place, found.rms_blur) + Declares(camera, p) + PhotoPoses(p, c.task.states[s].photos, found.states[s].poses) + "\n" +
 		CameraMacros(p, "the centre of the entrance pupil", CameraBlockText(camera, DeclaredNumbers(p), layout));
 }
 

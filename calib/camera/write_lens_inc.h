@@ -10,9 +10,9 @@
 namespace tiltcal
 {
 
-/// lens-<state>.inc: the state through the real lens, with the macros and names of camera-<state>.inc, in whose place a scene includes it.
+/// The part of camera-<state>.inc that shows the state through the real lens: its numbers, the photographs' poses and the macros of the thin lens's part.
 /// `calibration.real_lens` has an answer.
-std::string LensInc(const Calibration& calibration, size_t state);
+std::string RealLensPart(const Calibration& calibration, size_t state);
 
 }
 

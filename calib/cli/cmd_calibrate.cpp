@@ -43,12 +43,14 @@ struct Options
 	double circle_diameter = 0;
 	std::optional<double> pitch;
 	std::vector<std::string> untilted, tilted, fix, prior, flat_field;
-	bool any_orientation = false, untilted_free = false, real_lens = false;
-	int edges_per_photo = 0;
+	bool any_orientation = false, untilted_free = false;
+	int edges_per_photo = 0, threads = 0;
 };
 
 /// Six edges of each direction reach all quarters of the board (test_spread_order.cpp).
 const int FEWEST_EDGES = 12;
+
+const int MOST_THREADS = 1024;
 
 /// --square VALUE or VALUE:SIGMA, mm.
 Estimate ParseSquare(const std::string& text)
@@ -145,7 +147,7 @@ std::optional<Model> ParseModel(const std::string& text)
 /// The help of --model, from the models' own words.
 std::string ModelHelp()
 {
-	std::string help = "auto: curved where photographs left out show field curvature, else plane";
+	std::string help = "auto: curved where photographs left out show field curvature, else plane; from there on lens, where aberrations are left over and photographs left out show them";
 	for (const ModelWords& words : MODELS)
 		help += fmt::format("; {}: {}", words.name, words.meaning);
 	return help;
@@ -193,10 +195,11 @@ Calibration CalibrateWithPriors(const Task& task, bool priors_from_exif_alone, c
 class MeasuredPictures
 {
 public:
-	void Add(const cv::Mat& grey)
+	explicit MeasuredPictures(size_t count) : packed(count) {}
+
+	void Add(size_t number, const cv::Mat& grey)
 	{
-		packed.emplace_back();
-		cv::imencode(".png", ToDisplay(grey), packed.back(), { cv::IMWRITE_PNG_COMPRESSION, 1 });
+		cv::imencode(".png", ToDisplay(grey), packed[number], { cv::IMWRITE_PNG_COMPRESSION, 1 });
 	}
 
 	cv::Mat Get(const Task& task, size_t state, size_t photo) const
@@ -261,7 +264,7 @@ void Run(const Options& o, const std::string& command_line)
 	measure.any_orientation = o.any_orientation;
 	measure.edges_per_photo = o.edges_per_photo;
 	CalibrateOptions options;
-	options.real_lens = o.real_lens;
+	measure.threads = options.threads = o.threads;
 	options.model = ParseModel(o.model);
 	options.poses = ParsePoses(o.poses);
 	options.refinement = ParseRefinement(o.refine);
@@ -269,6 +272,8 @@ void Run(const Options& o, const std::string& command_line)
 	measure.log = options.log = ProgramLog();
 	if (o.pitch)
 		CheckPitch(*o.pitch);
+	if (o.threads < 0 || o.threads > MOST_THREADS)
+		throw UsageError(fmt::format("--threads {}: give 0 for all processors, or 1 to {}", o.threads, MOST_THREADS));
 	if (o.edges_per_photo != 0 && o.edges_per_photo < FEWEST_EDGES)
 		throw UsageError(fmt::format("--edges-per-photo {}: give 0 for all edges, or at least {}", o.edges_per_photo, FEWEST_EDGES));
 	const std::vector<StateFiles> states = States(o);
@@ -277,8 +282,8 @@ void Run(const Options& o, const std::string& command_line)
 	const std::vector<FieldFile> fields = FlatFields(o, states);
 	PrepareFolder(o.out);
 
-	MeasuredPictures pictures;
-	Task task = MeasureAll(states, board, pitch, measure, [&](const cv::Mat& grey) { pictures.Add(grey); });
+	MeasuredPictures pictures(AllFiles(states).size());
+	Task task = MeasureAll(states, board, pitch, measure, [&](size_t number, const cv::Mat& grey) { pictures.Add(number, grey); });
 	task.priors = known.priors;
 	task.blades = known.blades;
 	task.untilted_free = o.untilted_free;
@@ -321,8 +326,6 @@ void AddCalibrate(CLI::App& app, const std::string& command_line)
 	c->add_option("--poses", o->poses, "shared: photograph n shows the board in one pose in every state; own: not; auto: see for itself")->capture_default_str();
 	c->add_option("--refine", o->refine, "Last step, all numbers together: edges: places and blur widths of the edges; photometric: the brightness across them; "
 		"none: geometry first, then blur")->capture_default_str();
-	c->add_flag("--real-lens", o->real_lens, "Find one real lens for all states too, with its six third-order aberrations, from the places and blurs of the edges: lens-<state>.inc, to be "
-		"included in place of camera-<state>.inc, and real_lens in calibration.json. Takes about as long again");
 	c->add_option("--fix", o->fix, "NAME=VALUE: what is known exactly: focal_length, f_number, image_distance, focus_distance, aperture_diameter "
 		"(mm; untilted); blades (their number), blade_rotation (degrees, of a corner: 0 up, 90 right), blade_curvature (0 straight to 1 round); may be repeated");
 	c->add_option("--prior", o->prior, "NAME=VALUE:SIGMA: what is known about; the same names; may be repeated");
@@ -332,8 +335,10 @@ void AddCalibrate(CLI::App& app, const std::string& command_line)
 		"none; or some of " + EffectNames() + ", separated by commas: exactly these")->capture_default_str();
 	c->add_option("--edges-per-photo", o->edges_per_photo, "Measure only N edges of every photograph, spread evenly over the board and both directions: "
 		"faster, less accurate. 0: all")->capture_default_str();
+	c->add_option("--threads", o->threads, "Work on so many photographs at once, and solve on so many threads; 0: all processors. What is measured in the photographs does "
+		"not depend on it, what is solved in its last digits")->capture_default_str();
 	c->add_flag("--any-orientation", o->any_orientation, "Accept a board that stands upside down (a mirrored picture looks the same)");
-	c->add_option("--out", o->out, "Folder for calibration.json, camera-<state>.inc (lens-<state>.inc), overlays, report.txt and report.html (all on one page); created if missing")->required();
+	c->add_option("--out", o->out, "Folder for calibration.json, camera-<state>.inc, overlays, report.txt and report.html (all on one page); created if missing")->required();
 	c->footer("Example:\n  tiltcal calibrate --board 12x9 --square 25 --pitch 0.02 --untilted 'target/untilted-*.png' \\\n"
 		"      --tilted plus5='target/plus5-*.png' --tilted minus5='target/minus5-*.png' --out calibration\n\n"
 		"Photograph the board inclined by 20 to 45 degrees in several directions, with parts before and\n"

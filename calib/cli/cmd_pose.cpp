@@ -25,6 +25,7 @@ struct Options
 	std::string calibration, state, points, photo, transfer = "srgb", overlay, out;
 	double unit_mm = 1;
 	int window = 9;
+	bool real_lens = false;
 };
 
 void Report(const Options& o, const PhotoPose& solved, const std::string& inc, FileSet& set)
@@ -68,7 +69,12 @@ void Run(const Options& o)
 		if (!o.overlay.empty())
 			set.Text(o.overlay, PngOf(DrawPosePoints(photo, solved)));
 	}
-	Report(o, solved, PoseInc(camera, solved.pose, o.unit_mm), set);
+	const std::optional<StateCamera> real = o.real_lens ? ReadRealLensCamera(o.calibration, camera.state) : std::nullopt;
+	if (o.real_lens && !real)
+		throw UsageError(fmt::format("--real-lens: {} has no real lens for its answer: calibrate with --model lens", o.calibration));
+	if (real)
+		solved.pose = SolvePose(*real, solved.points, o.points, o.unit_mm);
+	Report(o, solved, PoseInc(real ? *real : camera, solved.pose, o.unit_mm), set);
 }
 
 }
@@ -84,6 +90,7 @@ void AddPose(CLI::App& app)
 		"without a pixel are looked for");
 	c->add_option("--window", o->window, "N pixels to each side in which a crossing is measured; less than the distance to the next one, more than the blur")
 		->capture_default_str()->check(CLI::Range(3, 100));
+	c->add_flag("--real-lens", o->real_lens, "Through the real lens, where the calibration has one: for scenes that declare TiltCal_Real_Lens = 1");
 	c->add_option("--transfer", o->transfer, "Of an 8- or 16-bit photograph: srgb, linear or a gamma")->capture_default_str();
 	c->add_option("--overlay", o->overlay, "FILE.png for the photograph with the points and how far off they are; needs --photo");
 	c->add_option("--unit-mm", o->unit_mm, "Millimetres of a scene unit, such as 1000 for metres")->capture_default_str();

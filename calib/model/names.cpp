@@ -5,7 +5,8 @@
 namespace tiltcal
 {
 
-const std::array<ModelWords, 4> MODELS{ {
+const std::array<ModelWords, 5> MODELS{ {
+	{ Model::LENS, "lens", "a real lens with aberrations, one for all states" },
 	{ Model::CURVED, "curved", "exact, with a field curvature common to all states" },
 	{ Model::PLANE, "plane", "exact, a free plane of focus in every state" },
 	{ Model::RIGID, "rigid", "exact, the lens only turns and keeps f and w" },

@@ -21,7 +21,7 @@ struct ModelWords
 };
 
 /// Every model; the ones to rely on first.
-extern const std::array<ModelWords, 4> MODELS;
+extern const std::array<ModelWords, 5> MODELS;
 
 /// Of the five of Distortion, in its order.
 extern const std::array<const char*, 5> DISTORTION_NAMES;

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <mutex>
 
 namespace tiltcal
 {
@@ -88,6 +89,9 @@ PhotographFacts ReadFacts(const PictureFile& picture, int width)
 {
 	if (picture.format == PictureFormat::EXR)
 		return {};
+	// Exiv2's XMP toolkit is one for the process.
+	static std::mutex one_at_a_time;
+	const std::lock_guard<std::mutex> lock(one_at_a_time);
 	Exiv2::LogMsg::setLevel(Exiv2::LogMsg::mute);
 	try
 	{

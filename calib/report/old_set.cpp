@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 
 std::set<std::string> NamesOfState(const std::string& state, size_t photos)
 {
-	std::set<std::string> names{ "camera-" + state + ".inc", "lens-" + state + ".inc", "blur-" + state + ".csv", "blur-" + state + ".png" };
+	std::set<std::string> names{ "camera-" + state + ".inc", "blur-" + state + ".csv", "blur-" + state + ".png" };
 	for (size_t p = 1; p <= photos; ++p)
 		names.insert(fmt::format("overlay-{}-{}.png", state, p));
 	return names;
@@ -38,11 +38,7 @@ std::set<std::string> NamesOf(const Calibration& c)
 {
 	std::set<std::string> names;
 	for (const State& state : c.task.states)
-	{
 		names.merge(NamesOfState(state.name, state.photos.size()));
-		if (!c.real_lens || !c.real_lens->failure.empty())
-			names.erase("lens-" + state.name + ".inc");
-	}
 	return names;
 }
 
@@ -71,7 +67,7 @@ std::set<std::string> NamesOf(const std::string& calibration)
 void RemoveOldSet(const std::string& folder, const Calibration& c, FileSet& set)
 {
 	const std::set<std::string> mine = NamesOf(c), old = NamesOf(Join(folder, "calibration.json"));
-	static const std::regex pattern("(camera|lens)-.*\\.inc|blur-.*\\.(csv|png)|overlay-.*-[0-9]+\\.png");
+	static const std::regex pattern("camera-.*\\.inc|blur-.*\\.(csv|png)|overlay-.*-[0-9]+\\.png");
 	size_t removed = 0;
 	std::error_code code;
 	for (const fs::directory_entry& entry : fs::directory_iterator(folder, code))

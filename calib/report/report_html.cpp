@@ -78,7 +78,7 @@ std::string Summary(const Calibration& c, const RunNotes& notes)
 	rows.push_back({ "photographs", Counts(task) });
 	rows.push_back({ "picture", fmt::format("{} × {} px, pitch {:g} mm: a sensor of {:.2f} × {:.2f} mm", task.width, task.height, task.pitch_mm, task.width * task.pitch_mm, task.height * task.pitch_mm) });
 	rows.push_back({ "board", fmt::format("{}; its poses are {} the states", BoardText(task.board), c.MainGeometry().shared_poses ? "shared by" : "free in all") });
-	rows.push_back({ "model", Escape(std::string(NameOf(c.solution.model)) + ": " + MeaningOf(c.solution.model)) });
+	rows.push_back({ "model", Escape(std::string(NameOf(c.Answer())) + ": " + MeaningOf(c.Answer())) });
 	rows.push_back({ "refinement", c.solution.model == Model::PAPER ? "none" : Escape(notes.refinement) });
 	rows.push_back({ "program", "tiltcal " TILTCAL_VERSION ", " + Escape(notes.date) });
 	if (!notes.command_line.empty())
@@ -200,6 +200,7 @@ std::string Fine(const Calibration& c)
 	out += fmt::format("<h3>In POV-Ray</h3>\n<p>Each state has a file <code>camera-STATE.inc</code>; the world's unit is 1 mm. With the patched POV-Ray:</p>\n<pre>#include &quot;camera-{0}.inc&quot;\n"
 		"TiltCal_{0}(&lt;0, 0, -1000&gt;, &lt;0, 0, 0&gt;, y)   // location, look_at, sky\n// or the camera of a photograph, the board's first inner corner at the origin:\nTiltCal_{0}_Pose(1)</pre>\n"
 		"<p>{1}All numbers, with their sigmas, are in <code>calibration.json</code>.</p>\n", Escape(name),
+		c.RealLensIsUsed() ? "<code>#declare TiltCal_Real_Lens = 1;</code> before the include takes the real lens, else the cameras are the thin one's. " :
 		c.MainGeometry().distortion_terms ? "<code>#declare TiltCal_Distortion = 0;</code> before the include takes the camera that was fitted without distortion. " : "");
 	return out;
 }

@@ -74,8 +74,8 @@ Rows StateRows(const Calibration& c)
 		const StateCamera camera = FittedCamera(c, s);
 		const StateCameraSigma& sigma = camera.sigma;
 		const bool tilted = c.task.states[s].tilted || (c.task.untilted_free && c.solution.model != Model::PAPER);
-		rows.push_back({ Escape(camera.state), tilted ? WithSigma({ camera.lens_tilt_deg, sigma.lens_tilt_deg }, "°") : "none",
-			tilted ? WithSigma({ camera.tilt_direction_deg, sigma.tilt_direction_deg }, "°") : "–",
+		rows.push_back({ Escape(camera.state), tilted ? WithSigma(c.TiltOf(s).lens_tilt, "°") : "none",
+			tilted ? WithSigma(c.TiltOf(s).tilt_direction, "°") : "–",
 			tilted ? WithSigma({ camera.focal_plane_tilt_deg, sigma.focal_plane_tilt_deg }, "°") : "parallel",
 			FocusText(c.solution.states[s]), WithSigma({ camera.focal_length_mm, sigma.focal_length_mm }, "mm"), WithSigma(FNumber(camera), ""),
 			PointText(camera.principal_point, sigma.principal_point, "px") + (g.states[s].principal_point_fixed ? " (held)" : ""), Number(c.solution.states[s].rms_blur, 3) + " px",
@@ -169,6 +169,13 @@ std::string EvidenceTable(const Calibration& c)
 	add("blur alone", c.blur_alone);
 	add("geometry alone", c.geometry_alone.states);
 	add("jointly", c.solution.states);
+	if (c.RealLensIsUsed())
+	{
+		std::vector<StateLens> states;
+		for (const RealLensState& state : c.real_lens->states)
+			states.push_back(state.lens);
+		add("a real lens", states);
+	}
 	std::string out = html::Table(rows);
 	if (!c.geometry_alone.states.empty())
 		out += "<p>Geometry alone sees a pupil magnification of " + WithSigma(c.geometry_alone.pupil_magnification, "") + ".</p>\n";
@@ -200,21 +207,35 @@ std::string ModelsTable(const Calibration& c)
 	Rows rows{ { "model", "blur of photographs left out, RMS" } };
 	for (size_t s = 1; s < c.task.states.size(); ++s)
 		rows[0].push_back(Escape(c.task.states[s].name));
-	for (const Solution* each : c.compared->All())
+	rows[0].push_back("seconds");
+	const auto add = [&](Model model, const std::string& failure, const std::string& held_out, double seconds, const auto& lens)
 	{
-		const Solution& s = *each;
-		const std::string name = std::string(NameOf(s.model)) + (s.model == c.solution.model ? " (taken)" : "");
-		if (!s.failure.empty())
+		rows.push_back({ std::string(NameOf(model)) + (model == c.Answer() ? " (taken)" : "") });
+		if (!failure.empty())
+			rows.back().push_back("no answer: " + Escape(failure));
+		else
 		{
-			rows.push_back({ name, "no answer: " + Escape(s.failure) });
-			rows.back().resize(rows[0].size(), "–");
-			continue;
+			rows.back().push_back(held_out);
+			for (size_t k = 1; k < c.task.states.size(); ++k)
+				rows.back().push_back(TiltText(lens(k)));
+			rows.back().push_back(seconds > 0 ? Number(seconds, 1) : "–");
 		}
-		rows.push_back({ name, s.held_out_px > 0 ? Number(s.held_out_px, 3) + " px" : "cannot be said of one photograph a state" });
-		for (size_t k = 1; k < s.states.size(); ++k)
-			rows.back().push_back(TiltText(s.states[k]));
-	}
-	return html::Table(rows);
+		rows.back().resize(rows[0].size(), "–");
+	};
+	const auto add_thin = [&](const Solution& s)
+	{
+		add(s.model, s.failure, s.held_out_px > 0 ? Number(s.held_out_px, 3) + " px" : s.model == Model::PAPER ? "–" : "cannot be said of one photograph a state", s.seconds, [&](size_t k) { return s.states[k]; });
+	};
+	add_thin(c.paper);
+	for (const Solution* s : c.compared->All())
+		add_thin(*s);
+	if (!c.real_lens)
+		return html::Table(rows);
+	const RealLens& lens = *c.real_lens;
+	const bool told = lens.held_out > 0 && lens.held_out_thin > 0;
+	add(Model::LENS, lens.failure, told ? Number(lens.held_out / lens.held_out_thin, 2) + " of " + NameOf(c.solution.model) : "cannot be said", lens.seconds, [&](size_t k) { return lens.states[k].lens; });
+	return html::Table(rows) + (told ? std::string("<p><small>Of lens: places and blurs of the edges of photographs left out, each in what is usual of it, against the same of ") + NameOf(c.solution.model) +
+		" after its last refinement.</small></p>\n" : "");
 }
 
 std::string PhotographsTable(const Calibration& c)

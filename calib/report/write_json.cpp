@@ -105,6 +105,12 @@ Json StateJson(const Calibration& c, const Solution& solution, const Geometry& g
 	return json;
 }
 
+void PutTilt(Json& json, const StateLens& lens)
+{
+	Put(json, "lens_tilt", "_deg", lens.lens_tilt);
+	Put(json, "tilt_direction", "_deg", lens.tilt_direction);
+}
+
 /// The tilts by blur alone and by geometry alone.
 Json EvidenceJson(const Calibration& c)
 {
@@ -114,8 +120,7 @@ Json EvidenceJson(const Calibration& c)
 		for (size_t s = 1; s < states.size(); ++s)
 		{
 			Json& state = json[evidence][c.task.states[s].name];
-			Put(state, "lens_tilt", "_deg", states[s].lens_tilt);
-			Put(state, "tilt_direction", "_deg", states[s].tilt_direction);
+			PutTilt(state, states[s]);
 		}
 	};
 	add("blur_alone", c.blur_alone);
@@ -271,8 +276,7 @@ Json RealLensJson(const Calibration& c)
 	{
 		const RealLensState& state = lens.states[s];
 		Json one{ { "name", c.task.states[s].name } };
-		Put(one, "lens_tilt", "_deg", state.lens.lens_tilt);
-		Put(one, "tilt_direction", "_deg", state.lens.tilt_direction);
+		PutTilt(one, state.lens);
 		Put(one, "exit_pupil_to_sensor", "_mm", state.image_distance_mm);
 		one["principal_point_px"] = state.principal_point;
 		one["principal_point_sigma_px"] = state.principal_point_sigma;
@@ -281,7 +285,24 @@ Json RealLensJson(const Calibration& c)
 	json["rms_place_px"] = lens.rms_place;
 	json["rms_blur_px"] = lens.rms_blur;
 	json["held_out"] = PositiveOrNull(lens.held_out);
+	json["held_out_thin"] = PositiveOrNull(lens.held_out_thin);
+	json["used"] = lens.used;
 	return json;
+}
+
+/// The tilts are the real lens's, where that is the answer; what the thin lens has in their place stays beside them, for all else is of one camera with it.
+void PutAnswer(const Calibration& c, Json& json)
+{
+	if (!c.RealLensIsUsed())
+		return;
+	json["model"] = NameOf(c.Answer());
+	json["thin_model"] = NameOf(c.solution.model);
+	for (size_t s = 0; s < c.solution.states.size(); ++s)
+	{
+		Json& state = json["states"][s];
+		PutTilt(state["thin"], c.solution.states[s]);
+		PutTilt(state, c.TiltOf(s));
+	}
 }
 
 /// Null: too few photographs.
@@ -316,6 +337,7 @@ Json BoardJson(const Board& board)
 std::string CalibrationJson(const Calibration& c)
 {
 	Json json = SolutionJson(c, c.solution, c.MainGeometry());
+	PutAnswer(c, json);
 	json["image_size_px"] = { c.task.width, c.task.height };
 	json["pixel_pitch_mm"] = c.task.pitch_mm;
 	json["exif"] = ExifJson(c.task);

@@ -17,7 +17,6 @@
 #include "calibrate/verdict.h"
 #include "report/write_csv.h"
 #include "camera/write_inc.h"
-#include "camera/write_lens_inc.h"
 #include "lens/words.h"
 #include "report/write_json.h"
 
@@ -47,6 +46,20 @@ std::string StateRows(const Calibration& c, const Solution& solution, const Geom
 			c.task.states[s].photos.size(), tilted ? PlusMinus(l.lens_tilt, 3) : "0", tilted ? PlusMinus(l.tilt_direction, 2) : "-",
 			tilted ? PlusMinus(l.focal_plane_tilt, 2) : "0", FocusInShort(InverseFocus(l)).value_or(PlusMinus(l.focus_distance, 1)),
 			std::sqrt(squares / double(g.states[s].photo_rms.size())), l.rms_blur);
+	}
+	return rows;
+}
+
+/// The same of the real lens; its plane of focus is not a plane.
+std::string RealLensRows(const Calibration& c)
+{
+	std::string rows;
+	for (size_t s = 0; s < c.task.states.size(); ++s)
+	{
+		const RealLensState& state = c.real_lens->states[s];
+		const bool tilted = c.task.states[s].tilted || c.task.untilted_free;
+		rows += fmt::format("{:<12} {:<6} {:>6} {:>16} {:>14} {:>16} {:>16} {:>9.3f} {:>8.3f}\n", c.task.states[s].name, NameOf(Model::LENS), c.task.states[s].photos.size(),
+			tilted ? PlusMinus(state.lens.lens_tilt, 3) : "0", tilted ? PlusMinus(state.lens.tilt_direction, 2) : "-", "-", "-", c.real_lens->rms_place, c.real_lens->rms_blur);
 	}
 	return rows;
 }
@@ -88,7 +101,7 @@ std::string Comparison(const Calibration& c)
 			best = &s;
 	}
 	if (best)
-		out += fmt::format("  {} predicts them best{}\n", NameOf(best->model), best->model == c.solution.model ? ", and was taken"
+		out += fmt::format("  {} predicts them best{}\n", NameOf(best->model), best->model == c.solution.model ? c.RealLensIsUsed() ? "; from there the real lens goes on" : ", and was taken"
 			: fmt::format("; {} was taken, see --help. The difference is small when their tilts agree", NameOf(c.solution.model)));
 	return out;
 }
@@ -129,7 +142,10 @@ std::string RealLensText(const Calibration& c)
 		out += fmt::format(" {} {}{}", tilt_lens::AberrationWords[k], PlusMinus(lens.PerMille(k), 3), k + 1 < lens.aberrations_mm.size() ? "," : "\n");
 	for (size_t s = 1; s < lens.states.size(); ++s)
 		out += fmt::format("  {}: tilt {} degrees towards {}\n", c.task.states[s].name, PlusMinus(lens.states[s].lens.lens_tilt, 3), PlusMinus(lens.states[s].lens.tilt_direction, 2));
-	return out + fmt::format("  places of edges fit to {:.3f} px, their blurs to {:.3f} px\n", lens.rms_place, lens.rms_blur);
+	out += fmt::format("  places of edges fit to {:.3f} px, their blurs to {:.3f} px\n", lens.rms_place, lens.rms_blur);
+	if (lens.held_out > 0 && lens.held_out_thin > 0)
+		out += fmt::format("  photographs left out are predicted to {:.2f} of what is usual by it, to {:.2f} by {}\n", lens.held_out, lens.held_out_thin, NameOf(c.solution.model));
+	return out + (lens.used ? "  it was taken: the tilts are its own; the .inc files have it where TiltCal_Real_Lens is 1\n" : "  it was not taken\n");
 }
 
 std::string VerdictText(const Verdict& verdict)
@@ -183,6 +199,8 @@ std::string SummaryTable(const Calibration& c)
 		out += ModelLine(c.paper);
 	out += fmt::format("\n{:<12} {:<6} {:>6} {:>16} {:>14} {:>16} {:>16} {:>9} {:>8}\n", "state", "model", "photos", "lens tilt deg", "direction deg",
 		"plane tilt deg", "focus mm", "corner px", "blur px");
+	if (c.RealLensIsUsed())
+		out += RealLensRows(c);
 	out += StateRows(c, c.solution, c.MainGeometry());
 	if (compare && c.paper.failure.empty())
 		out += StateRows(c, c.paper, c.paper_geometry);
@@ -224,8 +242,6 @@ void WriteEverything(const Calibration& c, const RunNotes& notes, const ReadGrey
 		}
 		PlotBlur(c, s, folder, set);
 		set.Text(Join(folder, "camera-" + c.task.states[s].name + ".inc"), CameraInc(c, s));
-		if (c.real_lens && c.real_lens->failure.empty())
-			set.Text(Join(folder, "lens-" + c.task.states[s].name + ".inc"), LensInc(c, s));
 	}
 	set.Text(Join(folder, "photographs.csv"), PhotographsCsv(c));
 	set.Text(Join(folder, "report.txt"), SummaryTable(c));

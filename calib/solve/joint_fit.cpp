@@ -226,9 +226,12 @@ std::optional<JointCovariance> JointFit::Covariance(Geometry& g, Unknowns& x) co
 		c.col(UnknownIndex::W) *= task.pitch_mm;
 		return CovarianceOfPlanes(model, x, g.w_px * task.pitch_mm, c);
 	};
-	JointCovariance both{ of_planes(scale * covariance.Of(lens)), std::nullopt };
+	JointCovariance both{ of_planes(scale * covariance.Of(lens)), std::nullopt, 0 };
 	if (jackknife)
+	{
 		both.by_photographs = of_planes(jackknife->Of(lens));
+		both.held_out = jackknife->HeldOut();
+	}
 	return both;
 }
 

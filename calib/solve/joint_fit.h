@@ -32,6 +32,7 @@ struct JointCovariance
 {
 	LensCovariance by_edges;
 	std::optional<LensCovariance> by_photographs;
+	double held_out = 0;   ///< RMS residual of each photograph as the others predict it, its pose its own, in sigmas; 0: cannot be had
 };
 
 struct JointFit

@@ -5,6 +5,7 @@
 #include <ceres/solver.h>
 
 #include <algorithm>
+#include <atomic>
 #include <thread>
 #ifdef __linux__
 #include <sched.h>
@@ -12,6 +13,15 @@
 
 namespace tiltcal
 {
+
+namespace
+{
+
+std::atomic<int> most_threads{ 0 };
+
+}
+
+int LimitThreads(int most) { return most_threads.exchange(most); }
 
 int AllThreads()
 {
@@ -22,6 +32,8 @@ int AllThreads()
 	if (sched_getaffinity(0, sizeof(mine), &mine) == 0)
 		threads = CPU_COUNT(&mine);
 #endif
+	if (const int most = most_threads; most > 0)
+		threads = std::min(threads, most);
 	// More gain nothing at the size of these problems.
 	return std::clamp(threads, 1, 16);
 }

@@ -27,6 +27,9 @@ struct LeastSquares
 /// As many as this process may use. Sums come out in another order then, and results differ in their last digits.
 int AllThreads();
 
+/// AllThreads gives at most so many from now on; 0: no limit. Returns the limit before, or 0.
+int LimitThreads(int most);
+
 /// Solves in place, in silence. Returns the cost, half the sum of the squares as their losses count them; none where Ceres did not
 /// converge; then `why` holds its words.
 std::optional<double> SolveLeastSquares(const LeastSquares& how, ceres::Problem& problem, std::string* why = nullptr);

@@ -76,11 +76,11 @@ struct MountedLens
 	}
 };
 
-/// Where the ray meets the board (its pose, R its rotation by columns), in board coordinates x and y, mm.
+/// Where the ray meets the board (its pose, R its rotation by columns, seen from a lens centre that lies at `centre` in the ray's frame), in board coordinates x and y, mm.
 template<typename T>
-inline std::array<T, 2> OnBoard(const T* pose, const T* R, const Vec3<T>& origin, const Vec3<T>& direction)
+inline std::array<T, 2> OnBoard(const T* pose, const T* R, const T* centre, const Vec3<T>& origin, const Vec3<T>& direction)
 {
-	const Vec3<T> from{ origin.x - pose[3], origin.y - pose[4], origin.z - pose[5] };
+	const Vec3<T> from{ origin.x + centre[0] - pose[3], origin.y + centre[1] - pose[4], origin.z + centre[2] - pose[5] };
 	const auto along = [&](int axis, const Vec3<T>& v) { return R[3 * axis] * v.x + R[3 * axis + 1] * v.y + R[3 * axis + 2] * v.z; };
 	const T reach = -along(2, from) / along(2, direction);
 	return { along(0, from) + reach * along(0, direction), along(1, from) + reach * along(1, direction) };
@@ -102,17 +102,17 @@ struct RealLensEdge
 
 	/// On the board, mm from the edge's line, of the ray through a point of the opening.
 	template<typename T>
-	T FromLine(const MountedLens<T>& mounted, const T* pose, const T* R, const T* lens, const OpeningPoint& p) const
+	T FromLine(const MountedLens<T>& mounted, const T* pose, const T* R, const T* centre, const T* lens, const OpeningPoint& p) const
 	{
 		const T radius = T(r) * lens[real_lens::OPENING] * lens[real_lens::MAGNIFICATION];
 		Vec3<T> origin, direction;
 		mounted.Ray(radius * T(p.x), radius * T(p.y), origin, direction);
-		const std::array<T, 2> at = OnBoard(pose, R, origin, direction);
+		const std::array<T, 2> at = OnBoard(pose, R, centre, origin, direction);
 		return along_columns ? at[1] - T(Y) : at[0] - T(X);
 	}
 
 	template<typename T>
-	bool See(const T* state, const T* pose, const T* lens, const T* c, T* seen) const
+	bool See(const T* state, const T* pose, const T* centre, const T* lens, const T* c, T* seen) const
 	{
 		T R[9];
 		ceres::AngleAxisToRotationMatrix(pose, R);
@@ -122,7 +122,7 @@ struct RealLensEdge
 		T middle(0);
 		for (size_t k = 0; k < points.size(); ++k)
 		{
-			crossing.push_back(-FromLine(mounted, pose, R, lens, points[k]) * T(px_per_mm[k]));
+			crossing.push_back(-FromLine(mounted, pose, R, centre, lens, points[k]) * T(px_per_mm[k]));
 			middle += T(points[k].weight) * crossing.back();
 		}
 		T place = middle, soft(0);

@@ -14,6 +14,7 @@
 #include <opencv2/core/utility.hpp>
 
 #include <cmath>
+#include <map>
 
 namespace tiltcal
 {
@@ -22,7 +23,7 @@ namespace
 {
 
 using namespace real_lens;
-using RealLensCost = ceres::AutoDiffCostFunction<struct WeightedRealLensEdge, 2, STATE_SIZE, 6, LENS_SIZE, tilt_lens::AberrationTerms>;
+using RealLensCost = ceres::AutoDiffCostFunction<struct WeightedRealLensEdge, 2, STATE_SIZE, 6, 3, LENS_SIZE, tilt_lens::AberrationTerms>;
 
 struct WeightedRealLensEdge
 {
@@ -30,9 +31,9 @@ struct WeightedRealLensEdge
 	double of_place, of_blur;
 
 	template<typename T>
-	bool operator()(const T* state, const T* pose, const T* lens, const T* c, T* residual) const
+	bool operator()(const T* state, const T* pose, const T* centre, const T* lens, const T* c, T* residual) const
 	{
-		edge.See(state, pose, lens, c, residual);
+		edge.See(state, pose, centre, lens, c, residual);
 		residual[0] *= T(of_place);
 		residual[1] *= T(of_blur);
 		return true;
@@ -72,12 +73,12 @@ RealLensEdge EdgeOf(const RealLensFit& fit, const Edge& e, const RealLensNumbers
 	const auto mounted = [&](double t) { return MountedLens<double>(x.states[s].data(), x.lens.data(), x.c.data(), x.r, task.pitch_mm, e.x + t * normal[0], e.y + t * normal[1]); };
 	const double step = 0.5;   // px
 	const MountedLens<double> at = mounted(0), before = mounted(-step), behind = mounted(step);
-	const double* const pose = x.poses[s][p].data();
+	const double *const pose = x.PoseOf(s, p).data(), *const centre = x.centres[s].data();
 	double R[9];
 	ceres::AngleAxisToRotationMatrix(pose, R);
 	edge.points = OpeningThroughRims({ at.lens, x.r * x.lens[OPENING] * x.lens[MAGNIFICATION], at.x, at.y, at.depth }, fit.rims);
 	for (const OpeningPoint& point : edge.points)
-		edge.px_per_mm.push_back(2 * step / (edge.FromLine(behind, pose, R, x.lens.data(), point) - edge.FromLine(before, pose, R, x.lens.data(), point)));
+		edge.px_per_mm.push_back(2 * step / (edge.FromLine(behind, pose, R, centre, x.lens.data(), point) - edge.FromLine(before, pose, R, centre, x.lens.data(), point)));
 	return edge;
 }
 
@@ -93,15 +94,16 @@ void Hold(ceres::Problem& problem, double* block, int size, const std::vector<in
 /// Of edges that outlive the problem.
 std::vector<PhotographBlocks> Build(const RealLensFit& fit, const std::vector<RealLensEdge>& edges, RealLensNumbers& x, ceres::Problem& problem)
 {
-	std::vector<PhotographBlocks> photographs;
+	// Of one pose, where the states share them.
+	std::map<std::pair<size_t, size_t>, PhotographBlocks> photographs;
 	size_t k = 0;
 	ForEachEdge(fit.task, [&](size_t s, size_t p, const Edge& e)
 	{
-		double* const pose = x.poses[s][p].data();
-		if (photographs.empty() || photographs.back().pose != pose)
-			photographs.push_back({ {}, pose, s });
+		PhotographBlocks& own = photographs[{ x.shared_poses ? 0 : s, p }];
+		own.pose = x.PoseOf(s, p).data();
+		own.group = x.shared_poses ? 0 : s;
 		auto* const cost = new WeightedRealLensEdge{ edges[k++], 1 / std::hypot(e.offset_sigma, fit.error.offset), 1 / std::hypot(e.blur_sigma, fit.error.blur) };
-		photographs.back().residuals.push_back(problem.AddResidualBlock(new RealLensCost(cost), new ceres::HuberLoss(2.5 * std::sqrt(2.0)), x.states[s].data(), pose, x.lens.data(), x.c.data()));
+		own.residuals.push_back(problem.AddResidualBlock(new RealLensCost(cost), new ceres::HuberLoss(2.5 * std::sqrt(2.0)), x.states[s].data(), own.pose, x.centres[s].data(), x.lens.data(), x.c.data()));
 	});
 	std::vector<int> held;
 	for (int term = 0; term < tilt_lens::AberrationTerms; ++term)
@@ -109,9 +111,19 @@ std::vector<PhotographBlocks> Build(const RealLensFit& fit, const std::vector<Re
 			held.push_back(term);
 	Hold(problem, x.c.data(), tilt_lens::AberrationTerms, held);
 	Hold(problem, x.lens.data(), LENS_SIZE, x.magnification_free ? std::vector<int>{} : std::vector<int>{ MAGNIFICATION });
-	if (!fit.task.untilted_free)
-		Hold(problem, x.states[0].data(), STATE_SIZE, { NX, NY });
-	return photographs;
+	if (x.lens_held)
+		for (const double* const block : { x.lens.data(), x.c.data() })
+			problem.SetParameterBlockConstant(block);
+	for (size_t s = 0; s < x.states.size(); ++s)
+		if (x.lens_held || (s == 0 && !fit.task.untilted_free))
+			Hold(problem, x.states[s].data(), STATE_SIZE, { NX, NY });
+	for (size_t s = 0; s < x.centres.size(); ++s)
+		if (s == 0 || !x.shared_poses)
+			problem.SetParameterBlockConstant(x.centres[s].data());
+	std::vector<PhotographBlocks> all;
+	for (const auto& [at, blocks] : photographs)
+		all.push_back(blocks);
+	return all;
 }
 
 std::vector<const double*> SharedBlocks(const RealLensNumbers& x)
@@ -119,6 +131,8 @@ std::vector<const double*> SharedBlocks(const RealLensNumbers& x)
 	std::vector<const double*> blocks{ x.lens.data(), x.c.data() };
 	for (const auto& state : x.states)
 		blocks.push_back(state.data());
+	for (const auto& centre : x.centres)
+		blocks.push_back(centre.data());
 	return blocks;
 }
 
@@ -134,6 +148,7 @@ RealLensNumbers StartOfRealLens(const Task& task, const Geometry& geometry, cons
 		const Vec3<double> n = state.lens_normal;
 		x.states.push_back({ n.x / n.z, n.y / n.z, geometry.w_px, state.principal_point[0], state.principal_point[1] });
 		x.poses.push_back(state.poses);
+		x.centres.push_back({ 0, 0, 0 });
 		power += 1 / thin.states[s].focal_length.value / double(task.states.size());
 	}
 	x.r = 0.5 * thin.aperture_diameter.value;
@@ -164,7 +179,7 @@ std::vector<std::array<double, 2>> RealLensFit::Residuals(const std::vector<Real
 	ForEachEdge(task, [&](size_t s, size_t p, const Edge&)
 	{
 		double seen[2];
-		edges[all.size()].See(x.states[s].data(), x.poses[s][p].data(), x.lens.data(), x.c.data(), seen);
+		edges[all.size()].See(x.states[s].data(), x.PoseOf(s, p).data(), x.centres[s].data(), x.lens.data(), x.c.data(), seen);
 		all.push_back({ seen[0], seen[1] });
 	});
 	return all;
@@ -200,6 +215,18 @@ std::optional<RealLensFit::Judged> RealLensFit::Judge(const std::vector<RealLens
 	return judged;
 }
 
+/// From the same numbers with poses of each state's own; none where they do not converge.
+std::optional<RealLensNumbers> AboutSharedPoses(const RealLensFit& fit, const std::vector<RealLensEdge>& edges, const Geometry& geometry, RealLensNumbers x)
+{
+	x.shared_poses = x.lens_held = true;
+	for (size_t s = 1; s < x.states.size(); ++s)
+	{
+		const Vec3<double>& centre = geometry.states[s].lens_centre;
+		x.centres[s] = { centre.x, centre.y, centre.z };
+	}
+	return fit.Minimise(edges, x, false) ? std::optional(x) : std::nullopt;
+}
+
 std::optional<RealLensAnswer> SolveRealLens(const Task& task, const Geometry& geometry, const Solution& thin, const std::vector<tilt_lens::Rim>& rims)
 {
 	RealLensAnswer answer;
@@ -225,6 +252,8 @@ std::optional<RealLensAnswer> SolveRealLens(const Task& task, const Geometry& ge
 	if (!judged)
 		return std::nullopt;
 	answer.judged = *judged;
+	if (geometry.shared_poses)
+		answer.about_shared_poses = AboutSharedPoses(fit, edges, geometry, x);
 	return answer;
 }
 

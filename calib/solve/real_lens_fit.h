@@ -18,12 +18,19 @@ namespace tiltcal
 struct RealLensNumbers
 {
 	std::vector<std::array<double, real_lens::STATE_SIZE>> states;
+	/// With shared poses those of the untilted state alone, and where the centre of the entrance pupil lies in the others, mm, seen from there.
 	std::vector<std::vector<Pose>> poses;
+	std::vector<std::array<double, 3>> centres;
+	bool shared_poses = false;
 	std::array<double, real_lens::LENS_SIZE> lens{};
 	std::array<double, tilt_lens::AberrationTerms> c{};   ///< mm
 	double r = 0;                                         ///< mm
 	std::array<bool, tilt_lens::AberrationTerms> free{};  ///< which of c the fit may change
 	bool magnification_free = false;
+	bool lens_held = false;                               ///< the lens and the states' tilts
+
+	Pose& PoseOf(size_t s, size_t p) { return poses[shared_poses ? 0 : s][p]; }
+	const Pose& PoseOf(size_t s, size_t p) const { return poses[shared_poses ? 0 : s][p]; }
 };
 
 /// From the thin lens that was found: its poses, planes and aperture; no aberrations.
@@ -46,7 +53,7 @@ struct RealLensFit
 	/// others, its pose being its own: the RMS of all residuals, in their sigmas.
 	struct Judged
 	{
-		Eigen::MatrixXd by_edges;                    ///< of lens, c and the states one after the other
+		Eigen::MatrixXd by_edges;                    ///< of lens, c, the states and their centres, one after the other
 		std::optional<Eigen::MatrixXd> by_photographs;
 		double held_out = 0;                         ///< 0: cannot be had
 	};
@@ -56,6 +63,9 @@ struct RealLensFit
 struct RealLensAnswer
 {
 	RealLensNumbers numbers;
+	/// Where poses are shared, the same lens in the same tilts about them: a body that stands still while the lens turns. `numbers` has poses of each state's own, for
+	/// what six numbers leave out of the picture would go into the tilts otherwise.
+	std::optional<RealLensNumbers> about_shared_poses;
 	ModelError error;
 	RealLensFit::Judged judged;
 };

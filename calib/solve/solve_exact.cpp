@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 namespace tiltcal
@@ -137,11 +138,15 @@ ModelComparison CompareExact(const Task& task, const Geometry& geometry)
 {
 	const Fitted plane = FitFromNothing(LensModel::PLANE, task, geometry);
 	const double most = MostOf(plane);
-	const auto or_failure = [](Model model, auto solve)
+	const auto seconds = [start = std::chrono::steady_clock::now()] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
+	const auto or_failure = [&](Model model, auto solve)
 	{
 		try
 		{
-			return solve();
+			const double before = seconds();
+			Solution s = solve();
+			s.seconds = seconds() - before;
+			return s;
 		}
 		catch (const Error& e)
 		{
@@ -161,8 +166,10 @@ ModelComparison CompareExact(const Task& task, const Geometry& geometry)
 		Keep(LeaveOut(LensModel::RIGID, task, geometry, rigid, most), s);
 		return s;
 	});
+	const double before = seconds();
 	all.plane = SolutionOf(LensModel::PLANE, Model::PLANE, task, geometry, plane);
 	Keep(LeaveOut(LensModel::PLANE, task, geometry, plane, most), all.plane);
+	all.plane.seconds = seconds() - before;
 	all.curved = or_failure(Model::CURVED, [&] { return Curve(task, geometry, plane, most); });
 	return all;
 }

@@ -79,6 +79,18 @@ bool RefineJointly(const Task& task, Refinement kind, Geometry& geometry, Soluti
 	return true;
 }
 
+double HeldOutOf(const Task& task, const Geometry& geometry, const Solution& solution, const ModelError& error)
+{
+	Geometry g = geometry;
+	Unknowns x = UnknownsOf(solution);
+	x.untilted_free = task.untilted_free;
+	const JointFit fit{ task, solution.lens, Refinement::EDGES, error, false };
+	if (!fit.Minimise(g, x))
+		return 0;
+	const std::optional<JointCovariance> covariance = fit.Covariance(g, x);
+	return covariance ? covariance->held_out : 0;
+}
+
 GeometryAlone TiltFromGeometryAlone(const Task& task, const Geometry& geometry, const Solution& solution)
 {
 	if (geometry.distortion_terms == 0 || !geometry.shared_poses)

@@ -16,6 +16,9 @@ Unknowns UnknownsOf(const Solution& solution);
 /// the fit does not converge or is singular.
 bool RefineJointly(const Task& task, Refinement kind, Geometry& geometry, Solution& solution);
 
+/// How well the others predict each photograph (JointCovariance::held_out) where the model's error is `error`, whatever this solution's own; 0: cannot be said.
+double HeldOutOf(const Task& task, const Geometry& geometry, const Solution& solution, const ModelError& error);
+
 /// The lens tilts as the places of the edges alone tell them, blur aside (JointFit::geometry_alone). The other
 /// numbers of the states are `solution`'s. Nothing where they tell nothing: without distortion, with poses of every
 /// state's own, which take up what a tilt does to the picture, or singular.

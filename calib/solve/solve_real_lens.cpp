@@ -6,8 +6,10 @@
 #include "model/tilt_angles.h"
 #include "solve/fill_solution.h"
 #include "solve/real_lens_fit.h"
+#include "solve/solve_joint.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 namespace tiltcal
@@ -57,10 +59,10 @@ Eigen::Matrix4d CovarianceOfThinLens(const RealLensNumbers& x, size_t s, const E
 	return by * c * by.transpose();
 }
 
-RealLensState StateOf(const RealLensAnswer& answer, size_t s, double pitch_mm, const std::vector<double>& sigma)
+RealLensState StateOf(const RealLensAnswer& answer, size_t s, size_t photographs, double pitch_mm, const std::vector<double>& sigma)
 {
-	const RealLensNumbers& x = answer.numbers;
-	const Eigen::Vector4d thin = ThinLensOf(Eigen::Map<const Eigen::VectorXd>(x.states[s].data(), STATE_SIZE), Eigen::Map<const Eigen::VectorXd>(x.lens.data(), LENS_SIZE), pitch_mm);
+	const RealLensNumbers &x = answer.numbers, &stands = answer.about_shared_poses ? *answer.about_shared_poses : x;
+	const Eigen::Vector4d thin = ThinLensOf(Eigen::Map<const Eigen::VectorXd>(stands.states[s].data(), STATE_SIZE), Eigen::Map<const Eigen::VectorXd>(x.lens.data(), LENS_SIZE), pitch_mm);
 	const Vec3<double> q{ thin[0], thin[1], thin[2] };
 	RealLensState state;
 	FillStateLens(q, thin[3], CovarianceOfThinLens(x, s, answer.judged.by_edges, pitch_mm), state.lens);
@@ -71,10 +73,17 @@ RealLensState StateOf(const RealLensAnswer& answer, size_t s, double pitch_mm, c
 		WidenSigmas(by_photographs, state.lens);
 	}
 	const size_t at = size_t(PlaceOfState(s));
-	state.image_distance_mm = { x.states[s][W] * pitch_mm, sigma[at + W] * pitch_mm };
-	state.principal_point = { x.states[s][CX], x.states[s][CY] };
+	state.image_distance_mm = { stands.states[s][W] * pitch_mm, sigma[at + W] * pitch_mm };
+	state.principal_point = { stands.states[s][CX], stands.states[s][CY] };
 	state.principal_point_sigma = { sigma[at + CX], sigma[at + CY] };
-	state.poses = x.poses[s];
+	const auto& centre = stands.centres[s];
+	state.lens_centre_mm = { centre[0], centre[1], centre[2] };
+	for (size_t p = 0; p < photographs; ++p)
+	{
+		state.poses.push_back(stands.PoseOf(s, p));
+		for (size_t k = 0; k < 3; ++k)
+			state.poses.back()[3 + k] -= centre[k];
+	}
 	return state;
 }
 
@@ -83,6 +92,7 @@ RealLensState StateOf(const RealLensAnswer& answer, size_t s, double pitch_mm, c
 RealLens FindRealLens(const Task& task, const Geometry& geometry, const Solution& thin, const std::vector<tilt_lens::Rim>& rims)
 {
 	RealLens found;
+	const auto start = std::chrono::steady_clock::now();
 	const std::optional<RealLensAnswer> answer = SolveRealLens(task, geometry, thin, rims);
 	if (!answer)
 	{
@@ -103,10 +113,12 @@ RealLens FindRealLens(const Task& task, const Geometry& geometry, const Solution
 	for (size_t k = 0; k < found.aberrations_mm.size(); ++k)
 		found.aberrations_mm[k] = { x.c[k], sigma[LENS_SIZE + k] };
 	for (size_t s = 0; s < task.states.size(); ++s)
-		found.states.push_back(StateOf(*answer, s, task.pitch_mm, sigma));
+		found.states.push_back(StateOf(*answer, s, task.states[s].photos.size(), task.pitch_mm, sigma));
 	found.rms_place = answer->error.offset;
 	found.rms_blur = answer->error.blur;
 	found.held_out = answer->judged.held_out;
+	found.held_out_thin = HeldOutOf(task, geometry, thin, answer->error);
+	found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 	return found;
 }
 

@@ -57,12 +57,13 @@ std::vector<int> PilotBlocks(const PilotRequest& request, int width, int height)
 	return blocks;
 }
 
-std::string PilotText(int left, int top, int width, int height, double seconds, const std::vector<std::vector<PilotLevel> >& pixels)
+std::string PilotText(int left, int top, int width, int height, double seconds, const PilotSetting& setting, const std::vector<std::vector<PilotLevel> >& pixels)
 {
 	char number[160];
 	std::string text;
 
-	std::snprintf(number, sizeof(number), "block %d %d %d %d %.6g\n", left, top, width, height, seconds);
+	std::snprintf(number, sizeof(number), "block %d %d %d %d %.6g %d %d %.9g %.9g %d\n", left, top, width, height, seconds,
+		setting.min, setting.max, setting.variance, setting.confidence, int(setting.denoise));
 	text += number;
 	for(size_t i = 0; i < pixels.size(); i++)
 	{

@@ -64,11 +64,19 @@ struct PilotLevel
 	double variance;            ///< of a sample, the largest of the channels; 0 for one sample
 };
 
+/// What the scene's own camera says: what the picture itself will take.
+struct PilotSetting
+{
+	int min, max;               ///< blur_samples; min 0: none named
+	double variance, confidence;
+	bool denoise;
+};
+
 /// One block as text:
-///   block LEFT TOP WIDTH HEIGHT SECONDS
-/// (pixels; CPU seconds for all its samples), then row by row a line a pixel:
+///   block LEFT TOP WIDTH HEIGHT SECONDS MIN MAX VARIANCE CONFIDENCE DENOISE
+/// (pixels; CPU seconds for all its samples; the scene's setting), then row by row a line a pixel:
 ///   N MEAN_R MEAN_G MEAN_B VARIANCE, for N = 1, 2, 4, ... up to the samples.
-std::string PilotText(int left, int top, int width, int height, double seconds, const std::vector<std::vector<PilotLevel> >& pixels);
+std::string PilotText(int left, int top, int width, int height, double seconds, const PilotSetting& setting, const std::vector<std::vector<PilotLevel> >& pixels);
 
 }
 

@@ -79,7 +79,8 @@ void TracePixel::TraceTiltLensPilotBlock(int x, int y, int width, int height)
 		threadData->tiltLensCounts.AddLight(pixel.sums.count * rays - pixel.sums.stopped, tilt_lens::RareLight(), false);
 		cooperate();
 	}
-	Append_To_Pilot_File(request.file, tilt_lens::PilotText(x, y, w, h, Thread_Seconds() - start, pixels));
+	const tilt_lens::PilotSetting own = { camera.Blur_Samples_Min, camera.Blur_Samples, camera.Variance, camera.Confidence, camera.Tilt_Lens.spec.denoise };
+	Append_To_Pilot_File(request.file, tilt_lens::PilotText(x, y, w, h, Thread_Seconds() - start, own, pixels));
 }
 
 /// For #fopen: what tiltcost tries is not to leave traces in the user's files.

@@ -9,6 +9,7 @@
 #include "tiltcost/options.h"
 #include "tiltcost/progress.h"
 #include "tiltcost/report.h"
+#include "tiltcost/rows.h"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -31,7 +32,7 @@ void CheckFiles(const Options& options)
 		throw tiltcal::FileError(fmt::format("{}: cannot be plotted without gnuplot; install gnuplot-nox, or leave --plot out", options.plot));
 	if (options.job.povray.find('/') != std::string::npos && access(options.job.povray.c_str(), X_OK) != 0)
 		throw tiltcal::FileError(fmt::format("{}: no such program; build the target povray, or give the patched POV-Ray with --povray", options.job.povray));
-	for (const std::string& file : {options.plot, options.csv})
+	for (const std::string& file : {options.plot, options.csv, options.rows})
 	{
 		if (file.empty())
 			continue;
@@ -80,6 +81,16 @@ void PredictDenoised(const Pilot& pilot, Report& report)
 	report.denoise_seconds = DenoiseSecondsPerPixel() * report.pilot.machine.pixels;
 }
 
+/// --rows: what the first setting that was named costs, else the scene's own.
+void WriteRows(const Options& options, const PilotRun& run)
+{
+	const std::optional<tilt_lens::PilotSetting> own = run.blocks[0].own;
+	if (options.own.empty() && !own)
+		throw tiltcal::Refused("this povray does not tell what the scene says; name it with --setting MIN,MAX,VARIANCE");
+	const Setting setting = options.own.empty() ? Setting{own->min, own->max, own->variance, own->confidence, own->denoise} : options.own[0];
+	tiltcal::WriteText(options.rows, RowsText(run, Pilot(run.blocks), setting));
+}
+
 void Run(const Options& options)
 {
 	CheckFiles(options);
@@ -91,6 +102,8 @@ void Run(const Options& options)
 		const tiltcal::TemporaryFolder folder("tiltcost");
 		report.pilot = RunPilots(options.job, folder);
 	}
+	if (!options.rows.empty())
+		return WriteRows(options, report.pilot);
 	const Pilot pilot(report.pilot.blocks);
 	report.pilot.blocks.clear();
 	report.blocks = pilot.Blocks();

@@ -151,6 +151,7 @@ Options ParseCommandLine(CLI::App& app, int argc, char** argv)
 	app.add_option("--stop-levels", stop, "where it stops paying, in 8-bit levels [0.29]");
 	app.add_option("--plot", options.plot, "write time against error: FILE.svg or FILE.png");
 	app.add_option("--csv", options.csv, "write the table: FILE.csv");
+	app.add_option("--rows", options.rows, "write the seconds of every row, for the first --setting, else for what the scene\nitself says, and stop: FILE.json; povray-strips cuts pictures by it");
 	app.add_option("--pilot-time", pilot_time, "how long pilots may trace, by the clock: blocks of 16 x 16 pixels that\nhave not begun by then are left out, all but the first 4 [10s]");
 	app.add_option("--pilot-blocks", options.job.most_blocks, "at most so many blocks of 16 x 16 pixels [120]")->check(CLI::Range(1, 1000000));
 	app.add_flag("--scene-may-write", options.job.may_write, "let a scene that opens files for writing (#fopen) do so: it is parsed twice");
@@ -159,6 +160,7 @@ Options ParseCommandLine(CLI::App& app, int argc, char** argv)
 	// CLI11 takes them from the back.
 	app.parse(std::vector<std::string>(own.rbegin(), own.rend()));
 	options.job.scene = files[0];
+	options.job.rows = !options.rows.empty();
 	options.job.options.insert(options.job.options.begin(), files.begin() + 1, files.end());
 	if (by_time->count())
 		options.time = Positive("--time", time, ParseDuration, "a time such as 60s, 5m or 2h");
@@ -173,6 +175,8 @@ Options ParseCommandLine(CLI::App& app, int argc, char** argv)
 	const std::string suffix = std::filesystem::path(options.plot).extension().string();
 	if (!options.plot.empty() && suffix != ".svg" && suffix != ".png")
 		throw CLI::ValidationError("--plot", fmt::format("'{}' ends neither in .svg nor in .png", options.plot));
+	if (!options.rows.empty() && (options.time > 0 || options.error > 0 || options.levels > 0 || !options.csv.empty() || !options.plot.empty()))
+		throw CLI::ValidationError("--rows", "goes with none of --time, --error, --levels, --csv and --plot");
 	for (const std::string& setting : settings)
 		options.own.push_back(ParseSetting(setting));
 	return options;

@@ -54,9 +54,13 @@ std::vector<PilotBlock> ParsePilot(const std::string& text)
 	while (std::getline(in, line))
 	{
 		PilotBlock block;
-		if (!(std::istringstream(line) >> word >> block.left >> block.top >> block.width >> block.height >> block.seconds) ||
+		std::istringstream words(line);
+		if (!(words >> word >> block.left >> block.top >> block.width >> block.height >> block.seconds) ||
 			word != "block" || block.width < 1 || block.height < 1)
 			throw tiltcal::Refused(fmt::format("the pilot render wrote '{:.40}' where a block should begin; do tiltcost and povray belong together?", line));
+		tilt_lens::PilotSetting own{};
+		if (words >> own.min >> own.max >> own.variance >> own.confidence >> own.denoise)
+			block.own = own;
 		if (!seen.insert({block.left, block.top}).second)
 			throw tiltcal::Refused("more than one frame was rendered; choose one frame of the animation with +SFn +EFn");
 		while (int(block.pixels.size()) < block.width * block.height && std::getline(in, line))

@@ -7,6 +7,7 @@
 
 #include "lens/pilot.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct PilotBlock
 {
 	int left = 0, top = 0, width = 0, height = 0;
 	double seconds = 0;     ///< CPU, for all samples of all pixels
+	std::optional<tilt_lens::PilotSetting> own;     ///< what the scene says
 	/// Row by row; of a pixel the sums at 1, 2, 4, ... samples.
 	std::vector<std::vector<tilt_lens::PilotLevel>> pixels;
 };

@@ -188,13 +188,21 @@ PilotPlan PlanPilot(double seconds_per_sample, int threads, double seconds, int 
 	return {std::min(12, most_blocks), 64};
 }
 
+PilotPlan PlanRowsPilot(double seconds_per_sample, int threads, double seconds, int most_blocks)
+{
+	// Enough to tell pixels that stop early from those that do not.
+	const int samples = 32, least = 12;
+	const double affordable = seconds * threads / std::max(1e-12, seconds_per_sample * tilt_lens::PilotBlockSize * tilt_lens::PilotBlockSize * samples);
+	return {std::min(most_blocks, std::max(least, int(std::min(affordable, 1e6)))), samples};
+}
+
 PilotRun RunPilots(const Job& job, const tiltcal::TemporaryFolder& folder)
 {
 	PilotRenders renders(job, folder);
 	const PilotRun tiny = renders.Run(TinyPilot, job.pilot_seconds, "first pilot", 1);
 	// What is planned is bounded too: the processors may be busy with other work, or fewer than threads.
 	const double left = std::max(0.1 * job.pilot_seconds, job.pilot_seconds - (tiny.wall - tiny.machine.start_wall));
-	const PilotPlan plan = PlanPilot(SecondsPerSample(tiny.blocks), tiny.machine.threads, left, job.most_blocks);
+	const PilotPlan plan = (job.rows ? PlanRowsPilot : PlanPilot)(SecondsPerSample(tiny.blocks), tiny.machine.threads, left, job.most_blocks);
 	PilotRun run = renders.Run(plan, left, "pilot render", 2);
 	run.wall += tiny.wall;
 	// Both started the same way; the first wrote less, and the machine may have been busy in either.

@@ -25,6 +25,7 @@ struct Job
 	std::vector<std::string> options;   ///< POV-Ray's own
 	double pilot_seconds = 10;          ///< wall time for which both pilots together may begin blocks
 	int most_blocks = 120;
+	bool rows = false;                  ///< only where the time goes is asked: many blocks of few samples
 	bool may_write = false;             ///< the scene's own #fopen .. write and append
 };
 
@@ -36,6 +37,9 @@ struct PilotPlan
 /// What to trace in `seconds` on `threads`, if a sample costs `seconds_per_sample`: the most
 /// samples per pixel (64 to 1024) that leave blocks enough to stand for the picture.
 PilotPlan PlanPilot(double seconds_per_sample, int threads, double seconds, int most_blocks);
+
+/// The same where only the cost of places is asked: as many blocks as there is time for.
+PilotPlan PlanRowsPilot(double seconds_per_sample, int threads, double seconds, int most_blocks);
 
 /// What POV-Ray said about a render.
 struct RenderLog

@@ -48,6 +48,8 @@ Pilot::Pilot(const std::vector<PilotBlock>& read)
 	for (const PilotBlock& from : read)
 	{
 		Block block;
+		block.x = from.left + 0.5 * from.width;
+		block.y = from.top + 0.5 * from.height;
 		block.width = from.width;
 		block.height = from.height;
 		samples = from.pixels[0].back().samples;
@@ -151,6 +153,20 @@ void Pilot::AddErrors(const Class& of, int count, Prediction& sum) const
 		if (scale == LINEAR && count > samples)
 			sum.extrapolated += (of.off[scale] + left) * fall;
 	}
+}
+
+std::vector<BlockCost> Pilot::BlockCosts(const Setting& setting) const
+{
+	const std::vector<SampleLevel> levels = tilt_lens::SampleLevels(setting.min, setting.max, setting.variance, setting.confidence, &Chi2);
+	std::vector<BlockCost> costs;
+	for (const Block& block : blocks)
+	{
+		double samples_taken = 0;
+		for (const size_t level : LevelsOf(block, levels, setting.variance))
+			samples_taken += levels[level].samples;
+		costs.push_back({block.x, block.y, samples_taken / double(block.pixels.size()) * block.seconds_per_sample});
+	}
+	return costs;
 }
 
 Prediction Pilot::Predict(const Setting& setting, int part, int parts) const

@@ -46,6 +46,13 @@ struct Prediction
 	double Levels() const { return 255 * encoded_error; }
 };
 
+/// What a block of the pilot costs.
+struct BlockCost
+{
+	double x = 0, y = 0;            ///< its centre
+	double seconds_per_pixel = 0;
+};
+
 /// A pilot render, prepared for many predictions.
 class Pilot
 {
@@ -57,6 +64,9 @@ public:
 
 	/// Leaves out every block whose index is `part` modulo `parts` (parts > 1): for the jackknife.
 	Prediction Predict(const Setting& setting, int part, int parts) const;
+
+	/// What a setting costs at each block.
+	std::vector<BlockCost> BlockCosts(const Setting& setting) const;
 
 	int Samples() const { return samples; }
 	int Blocks() const { return int(blocks.size()); }
@@ -88,6 +98,7 @@ private:
 
 	struct Block
 	{
+		double x, y;                    ///< its centre
 		int width, height;
 		double seconds_per_sample;
 		std::vector<Pixel> pixels;

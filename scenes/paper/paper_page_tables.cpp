@@ -28,7 +28,7 @@ const char* MethodName(const std::string& name)
 {
 	return name == "published" ? "the paper, its lens and photographs" : name == "paper" ? "the paper’s method on our photographs"
 		: name == "rigid" ? "<code>rigid</code>: exact blur, the lens only turns" : name == "plane" ? "<code>plane</code>: exact blur, a free plane of focus"
-		: name == "default" ? "<b><code>curved</code>, the default: and field curvature</b>" : name == "photometric" ? "<code>curved</code>, photometric refinement"
+		: name == "default" ? "<b><code>lens</code>, the default: and aberrations</b>" : name == "photometric" ? "<code>curved</code>, photometric refinement"
 		: "for comparison: places of edges alone, no blur";
 }
 

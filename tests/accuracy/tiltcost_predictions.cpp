@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 //
-// tiltcost's predictions against renders: CPU time against the render's own, error against a truth of other lens
-// samples. Predictions are made a fixed number of times, before anything is rendered. Writes tiltcost.csv and tiltcost.html (a fragment for the
+// tiltcost's predictions against renders: camera rays and CPU time against the render's own, error against a truth of other lens
+// samples. Predictions are made once, before anything is rendered. Writes tiltcost.csv and tiltcost.html (a fragment for the
 // report) and fails when a prediction is out of bounds.
 //
-// Without options at the size and with the blocks of COSTS.md: 120 of 1920 x 1080 pixels. --small is ctest's.
+// Without options at the size and with the blocks of COSTS.md: 120 of 1920 x 1080 pixels. --small is ctest's: there seconds are shown, not
+// judged, for renders of tenths of a second say more of what else the machine does than of the prediction; rays are the same on every machine.
 
 #include "program/process.h"
 #include "support/picture.h"
@@ -36,21 +37,21 @@ struct Effort
 {
 	int width, height;
 	int truth_samples;                     ///< of each of the truth's two halves
-	/// So many whatever comes of them. The quickest render, and the shortest of the predicted times, count: other work on the machine only ever adds.
-	int predictions, renders;
+	bool judge_time;                       ///< seconds too, for which nothing else may run
+	int pilot_blocks;
 	std::string pilot_time;
 };
 
 /// tiltcost's own 120 blocks of 8,100; by the clock long enough for all of them.
-const Effort Full = {1920, 1080, 64, 1, 1, "60s"};
-/// All of the 80 blocks on an idle machine. Renders of tenths of a second are easily disturbed.
-const Effort Small = {160, 120, 128, 2, 4, "5s"};
+const Effort Full = {1920, 1080, 64, true, 120, "60s"};
+/// Three of the 80 blocks for each of the jackknife's ten groups, however busy the machine.
+const Effort Small = {160, 120, 128, false, 30, "10min"};
 
 struct Row
 {
 	int min = 0, max = 0;
 	double variance = 0, confidence = 0.9;
-	double error = 0, cpu = 0;
+	double error = 0, rays = 0, cpu = 0;
 };
 
 struct Scene
@@ -75,13 +76,19 @@ struct Result
 	std::string scene;
 	Row predicted;
 	double share = 0, error_sigma = 0, time_sigma = 0;
-	double error = 0, uncertain = 0, cpu = 0;   ///< as rendered; `uncertain`: one standard deviation of `error`, relative
+	double error = 0, uncertain = 0, rays = 0, cpu = 0;   ///< as rendered; `uncertain`: one standard deviation of `error`, relative
+	bool judge_time = false;
 
 	double ErrorOff() const { return predicted.error / error - 1; }
+	double RaysOff() const { return predicted.rays / rays - 1; }
 	double TimeOff() const { return predicted.cpu / cpu - 1; }
 	double ErrorLimit() const { return std::max(ErrorBound, Student * std::hypot(error_sigma, uncertain)); }
 	double TimeLimit() const { return std::max(TimeBound, Student * time_sigma); }
-	bool Good() const { return std::abs(ErrorOff()) <= ErrorLimit() && std::abs(TimeOff()) <= TimeLimit(); }
+	/// Time is rays times what one takes: the bound of the product holds for the factor that is the machine's no affair.
+	bool Good() const
+	{
+		return std::abs(ErrorOff()) <= ErrorLimit() && std::abs(RaysOff()) <= TimeLimit() && (!judge_time || std::abs(TimeOff()) <= TimeLimit());
+	}
 };
 
 struct Places
@@ -135,8 +142,23 @@ std::vector<std::string> SceneWords(const Places& places, const Scene& scene, co
 	return {file.string(), "+L" + folder.string(), width, height, work};
 }
 
-/// Renders and returns the picture; `cpu` receives the seconds.
-Picture Render(const Places& places, const Scene& scene, const Row& row, int seed, double& cpu, unsigned threads = 1)
+/// The number behind `label` in what a program printed.
+double Said(const std::string& text, const std::string& label)
+{
+	const size_t at = text.find(label);
+	if (at == std::string::npos)
+		throw std::runtime_error("there is no '" + label + "' in:\n" + text);
+	return std::atof(text.c_str() + at + label.size());
+}
+
+/// A render, its camera rays and its CPU seconds.
+struct Rendered
+{
+	Picture picture;
+	double rays = 0, cpu = 0;
+};
+
+Rendered Render(const Places& places, const Scene& scene, const Row& row, int seed, unsigned threads)
 {
 	const fs::path picture = places.out / "picture.ppm";
 	fs::remove(picture);
@@ -145,31 +167,23 @@ Picture Render(const Places& places, const Scene& scene, const Row& row, int see
 		command.push_back(word);
 	for (const std::string& word : {std::string("-D"), std::string("+FP16"), std::string("File_Gamma=1"), "+O" + picture.string()})
 		command.push_back(word);
-	cpu = RunChecked(command, places.out / "povray.log");
-	const Picture result = ReadPpm(picture.string());
-	if (result.width != places.effort.width || result.height != places.effort.height)
+	Rendered result;
+	result.cpu = RunChecked(command, places.out / "povray.log");
+	result.rays = Said(Contents(places.out / "povray.log"), "Camera Rays: ");
+	result.picture = ReadPpm(picture.string());
+	if (result.picture.width != places.effort.width || result.picture.height != places.effort.height)
 		throw std::runtime_error("POV-Ray rendered another size");
 	fs::remove(picture);
 	return result;
 }
 
-/// The number behind `label` in what tiltcost printed.
-double Said(const std::string& text, const std::string& label)
-{
-	const size_t at = text.find(label);
-	if (at == std::string::npos)
-		throw std::runtime_error("tiltcost does not say '" + label + "':\n" + text);
-	return std::atof(text.c_str() + at + label.size());
-}
-
-/// The table, and behind it `own`, the settings that are asked for.
-Predicted RunTiltcost(const Places& places, const Scene& scene, const std::vector<Row>& own = {})
+/// The table.
+Predicted RunTiltcost(const Places& places, const Scene& scene, unsigned threads)
 {
 	const fs::path csv = places.out / "prediction.csv", log = places.out / "tiltcost.log";
-	std::vector<std::string> command = {places.tiltcost, "--povray", places.povray, "--csv", csv.string(), "--pilot-time", places.effort.pilot_time};
-	for (const Row& row : own)
-		command.insert(command.end(), {"--setting", fmt::format("{},{},{:.9g},{:.9g}", row.min, row.max, row.variance, row.confidence)});
-	for (const std::string& word : SceneWords(places, scene, Row{0, 128, 0.0001, 0.9, 0, 0}, 0))
+	std::vector<std::string> command = {places.tiltcost, "--povray", places.povray, "--csv", csv.string(), "--pilot-time", places.effort.pilot_time,
+		"--pilot-blocks", fmt::format("{}", places.effort.pilot_blocks)};
+	for (const std::string& word : SceneWords(places, scene, Row{0, 128, 0.0001}, 0, threads))
 		command.push_back(word);
 	RunChecked(command, log);
 
@@ -189,8 +203,8 @@ Predicted RunTiltcost(const Places& places, const Scene& scene, const std::vecto
 		const std::string rest = line.substr(line.rfind('"') + 2);
 		char kind[32];
 		Row row;
-		double levels, rays, per_pixel, wall;
-		if (std::sscanf(rest.c_str(), "%31[^,],%lf,%lf,%lf,%lf,%lf,%lf,%d,%d,%lf,%lf", kind, &row.error, &levels, &rays, &per_pixel, &row.cpu, &wall,
+		double levels, per_pixel, wall;
+		if (std::sscanf(rest.c_str(), "%31[^,],%lf,%lf,%lf,%lf,%lf,%lf,%d,%d,%lf,%lf", kind, &row.error, &levels, &row.rays, &per_pixel, &row.cpu, &wall,
 			&row.min, &row.max, &row.variance, &row.confidence) != 11)
 			throw std::runtime_error("tiltcost wrote " + line);
 		predicted.rows.push_back(row);
@@ -198,6 +212,11 @@ Predicted RunTiltcost(const Places& places, const Scene& scene, const std::vecto
 	if (predicted.rows.empty())
 		throw std::runtime_error("tiltcost wrote no rows into " + csv.string());
 	return predicted;
+}
+
+unsigned AllThreads()
+{
+	return std::max(1u, std::thread::hardware_concurrency());
 }
 
 /// The mean of two pictures with other lens samples than the renders'. Their difference says what error it has of its own, whatever the
@@ -209,10 +228,9 @@ struct Truth
 
 Truth RenderTruth(const Places& places, const Scene& scene)
 {
-	const unsigned threads = std::max(1u, std::thread::hardware_concurrency());
-	const Row fixed = {0, places.effort.truth_samples, 0, 0.9, 0, 0};
-	double cpu = 0;
-	Truth truth = {Render(places, scene, fixed, 1, cpu, threads), Render(places, scene, fixed, 2, cpu, threads)};
+	const unsigned threads = AllThreads();
+	const Row fixed = {0, places.effort.truth_samples, 0};
+	Truth truth = {Render(places, scene, fixed, 1, threads).picture, Render(places, scene, fixed, 2, threads).picture};
 	for (size_t i = 0; i < truth.mean.rgb.size(); ++i)
 	{
 		const double first = truth.mean.rgb[i], second = truth.half_difference.rgb[i];
@@ -246,50 +264,41 @@ void Judge(const Picture& picture, const Truth& truth, Result& result)
 
 std::vector<Result> CheckScene(const Places& places, const Scene& scene)
 {
-	const Predicted predicted = RunTiltcost(places, scene);
-	std::vector<Row> chosen;
+	const unsigned threads = places.effort.judge_time ? 1 : AllThreads();
+	const Predicted predicted = RunTiltcost(places, scene, threads);
+	const Truth truth = RenderTruth(places, scene);
 	std::vector<Result> results;
 	for (const double error : Errors)
 	{
 		const Row row = *std::min_element(predicted.rows.begin(), predicted.rows.end(),
 			[&](const Row& a, const Row& b) { return std::abs(std::log(a.error / error)) < std::abs(std::log(b.error / error)); });
 		Result result = {scene.name, row, predicted.share, predicted.error_sigma, predicted.time_sigma};
-		result.cpu = 1e9;
-		chosen.push_back(row);
+		const Rendered rendered = Render(places, scene, row, 0, threads);
+		Judge(rendered.picture, truth, result);
+		result.rays = rendered.rays;
+		result.cpu = rendered.cpu;
+		result.judge_time = places.effort.judge_time;
 		results.push_back(result);
 	}
-	for (int i = 1; i < places.effort.predictions; ++i)
-	{
-		const std::vector<Row> again = RunTiltcost(places, scene, chosen).rows;
-		for (size_t k = 0; k < chosen.size(); ++k)
-			results[k].predicted.cpu = std::min(results[k].predicted.cpu, again.at(again.size() - chosen.size() + k).cpu);
-	}
-	const Truth truth = RenderTruth(places, scene);
-	for (size_t k = 0; k < chosen.size(); ++k)
-		for (int i = 0; i < places.effort.renders; ++i)
-		{
-			double cpu = 0;
-			Judge(Render(places, scene, chosen[k], 0, cpu), truth, results[k]);
-			results[k].cpu = std::min(results[k].cpu, cpu);
-		}
 	return results;
 }
 
 void Write(const Places& places, const std::vector<Result>& results)
 {
-	std::string csv = "scene,min,max,variance,predicted_error,predicted_error_sigma,error,error_sigma,predicted_cpu_s,predicted_cpu_sigma,cpu_s,pilot_share\n";
-	std::string html = fmt::format("<h2>tiltcost: predicted and rendered</h2>\n<p>{} × {} pixels, predicted {} before anything is rendered, from the part of the picture that stands beside it. Errors against "
-		"truths with other lens samples, whose own error is taken off. Bounds: {:.0f} % in time, {:.0f} % in error, or {:.2f} standard deviations (Student's t, once in 1000) where those are wider."
+	std::string csv = "scene,min,max,variance,predicted_error,predicted_error_sigma,error,error_sigma,predicted_rays,rays,predicted_cpu_s,predicted_cpu_sigma,cpu_s,pilot_share\n";
+	std::string html = fmt::format("<h2>tiltcost: predicted and rendered</h2>\n<p>{} × {} pixels, predicted once before anything is rendered, from the part of the picture that stands beside it. Errors against "
+		"truths with other lens samples, whose own error is taken off. Bounds: {:.0f} % in rays{}, {:.0f} % in error, or {:.2f} standard deviations (Student's t, once in 1000) where those are wider."
 		"</p>\n<table><tr><th>scene</th><th>pilot</th><th>blur_samples, variance</th><th>error predicted</th><th>rendered</th><th>off by</th><th>bound</th>"
-		"<th>CPU s predicted</th><th>rendered</th><th>off by</th><th>bound</th></tr>\n", places.effort.width, places.effort.height, places.effort.predictions > 1 ? "twice (the shorter time counts)" : "once", 100 * TimeBound, 100 * ErrorBound, Student);
+		"<th>rays predicted</th><th>rendered</th><th>off by</th><th>CPU s predicted</th><th>rendered</th><th>off by</th><th>bound</th></tr>\n", places.effort.width, places.effort.height, 100 * TimeBound,
+		places.effort.judge_time ? " and in time" : " (seconds are shown, not judged)", 100 * ErrorBound, Student);
 	for (const Result& r : results)
 	{
 		const Row& p = r.predicted;
-		csv += fmt::format("{},{},{},{:g},{:.5g},{:.3g},{:.5g},{:.3g},{:.4g},{:.3g},{:.4g},{:.4g}\n", r.scene, p.min, p.max, p.variance, p.error, r.error_sigma, r.error, r.uncertain,
-			p.cpu, r.time_sigma, r.cpu, r.share);
-		html += fmt::format("<tr{}><td>{}</td><td>{:.1f} %</td><td>{}, {}, {:g}</td><td>{:.4f}</td><td>{:.4f}</td><td>{:+.0f} %</td><td>{:.0f} %</td><td>{:.2f}</td><td>{:.2f}</td><td>{:+.0f} %</td>"
-			"<td>{:.0f} %</td></tr>\n", r.Good() ? "" : " class=\"lost\"", r.scene, 100 * r.share, p.min, p.max, p.variance, p.error, r.error, 100 * r.ErrorOff(), 100 * r.ErrorLimit(),
-			p.cpu, r.cpu, 100 * r.TimeOff(), 100 * r.TimeLimit());
+		csv += fmt::format("{},{},{},{:g},{:.5g},{:.3g},{:.5g},{:.3g},{:.0f},{:.0f},{:.4g},{:.3g},{:.4g},{:.4g}\n", r.scene, p.min, p.max, p.variance, p.error, r.error_sigma, r.error, r.uncertain,
+			p.rays, r.rays, p.cpu, r.time_sigma, r.cpu, r.share);
+		html += fmt::format("<tr{}><td>{}</td><td>{:.1f} %</td><td>{}, {}, {:g}</td><td>{:.4f}</td><td>{:.4f}</td><td>{:+.0f} %</td><td>{:.0f} %</td><td>{:.0f}</td><td>{:.0f}</td><td>{:+.0f} %</td>"
+			"<td>{:.2f}</td><td>{:.2f}</td><td>{:+.0f} %</td><td>{:.0f} %</td></tr>\n", r.Good() ? "" : " class=\"lost\"", r.scene, 100 * r.share, p.min, p.max, p.variance, p.error, r.error, 100 * r.ErrorOff(), 100 * r.ErrorLimit(),
+			p.rays, r.rays, 100 * r.RaysOff(), p.cpu, r.cpu, 100 * r.TimeOff(), 100 * r.TimeLimit());
 	}
 	html += "</table>\n";
 	std::ofstream(places.out / "tiltcost.csv") << csv;
@@ -311,7 +320,7 @@ int main(int argc, char** argv)
 	app.add_option("--scenes", places.scenes, "scenes")->required();
 	app.add_option("--out", places.out)->required();
 	app.add_option("--only", only, "these scenes alone");
-	app.add_flag("--small", small, "160 x 120 pixels, all of them in the pilot");
+	app.add_flag("--small", small, "160 x 120 pixels, 30 of 80 blocks in the pilot, seconds not judged");
 	app.add_option("--pilot-time", pilot_time, "tiltcost's option, for a machine that is busy");
 	CLI11_PARSE(app, argc, argv);
 	try
@@ -330,9 +339,9 @@ int main(int argc, char** argv)
 			{
 				results.push_back(r);
 				const Row& p = r.predicted;
-				fmt::print("{} {:<11} {:4.1f} %  {:>2}, {:>4}, {:<7g} error {:.5f} is {:.5f} ({:+3.0f} % of {:.0f} %; known to {:.1f} %)  CPU {:6.2f} s is {:6.2f} s ({:+3.0f} % of {:.0f} %)\n",
+				fmt::print("{} {:<11} {:4.1f} %  {:>2}, {:>4}, {:<7g} error {:.5f} is {:.5f} ({:+3.0f} % of {:.0f} %; known to {:.1f} %)  rays {:.0f} is {:.0f} ({:+3.0f} %)  CPU {:6.2f} s is {:6.2f} s ({:+3.0f} % of {:.0f} %)\n",
 					r.Good() ? ' ' : '!', r.scene, 100 * r.share, p.min, p.max, p.variance, p.error, r.error, 100 * r.ErrorOff(), 100 * r.ErrorLimit(), 100 * r.uncertain,
-					p.cpu, r.cpu, 100 * r.TimeOff(), 100 * r.TimeLimit());
+					p.rays, r.rays, 100 * r.RaysOff(), p.cpu, r.cpu, 100 * r.TimeOff(), 100 * r.TimeLimit());
 				std::fflush(stdout);
 			}
 		}

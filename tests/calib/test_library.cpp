@@ -39,7 +39,7 @@ std::string Refusal(const std::function<void()>& run, ExitCode code)
 TEST(Names, EveryModelAndEffectHasItsOwn)
 {
 	std::set<std::string> names;
-	for (const Model model : { Model::PAPER, Model::RIGID, Model::PLANE, Model::CURVED })
+	for (const Model model : { Model::PAPER, Model::RIGID, Model::PLANE, Model::CURVED, Model::LENS })
 	{
 		EXPECT_EQ(ModelNamed(NameOf(model)), model);
 		EXPECT_STRNE(MeaningOf(model), "");

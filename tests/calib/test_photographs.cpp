@@ -57,11 +57,15 @@ TEST(Photographs, LensTiltAndDirection)
 	}
 }
 
-// Real glass, which the simulation traced: the thin lens with its bowl is four of its sigmas off, one real lens must not be beyond three.
+// Real glass, which the simulation traced: the thin lens with its bowl is four of its sigmas off, one real lens must not be beyond three; it is what the tilts are told by.
 TEST(Photographs, TiltsOfTheRealLensAreWithinTheirSigmas)
 {
 	const Json lens = Calibration().at("real_lens");
 	ASSERT_EQ(lens.at("states").size(), 3u);
+	EXPECT_TRUE(lens.at("used").get<bool>());
+	EXPECT_LT(lens.at("held_out"), 0.99 * lens.at("held_out_thin").get<double>());
+	EXPECT_EQ(State(Calibration(), "plus5").at("lens_tilt_deg"), lens.at("states")[1].at("lens_tilt_deg"));
+	EXPECT_NE(State(Calibration(), "plus5").at("thin").at("lens_tilt_deg"), lens.at("states")[1].at("lens_tilt_deg"));
 	for (const auto& [at, truth] : { std::pair{ 1, 5.0 }, std::pair{ 2, -5.0 } })
 	{
 		const Json& state = lens.at("states")[size_t(at)];
@@ -96,7 +100,8 @@ TEST(Photographs, LensAndSensor)
 	// Untilted the axis meets the sensor at its centre; pixels at some 0.4 px sigma.
 	EXPECT_NEAR(json.at("principal_point_px")[0].get<double>(), 899.5, 3);
 	EXPECT_NEAR(json.at("principal_point_px")[1].get<double>(), 599.5, 3);
-	EXPECT_EQ(json.at("model"), "curved");
+	EXPECT_EQ(json.at("model"), "lens");
+	EXPECT_EQ(json.at("thin_model"), "curved");
 }
 
 TEST(Photographs, FieldCurvature)
@@ -268,19 +273,19 @@ TEST(Photographs, TheNoteSaysWhatTheIncHolds)
 	const std::string inc = text.str();
 	// With it unless the scene says otherwise ..
 	EXPECT_THAT(inc, testing::HasSubstr("#ifndef (TiltCal_Distortion)\n\t#declare TiltCal_Distortion = 1;\n#end"));
-	// .. and the numbers are the ones of the note: first those with it, behind #else those of `render`.
+	// .. and the numbers are the ones of the note: first those with it, behind #else those of `render`; the real lens's come last.
 	const auto declared = [&](size_t from) { return std::atof(inc.c_str() + inc.find("_Image_Distance = ", from) + 18); };
-	const size_t without = inc.find("#else", inc.find("#if (TiltCal_Distortion)"));
+	const size_t thin = inc.find("#if (TiltCal_Distortion)"), without = inc.find("#else", thin);
 	ASSERT_NE(without, std::string::npos);
+	EXPECT_THAT(inc.substr(0, thin), testing::HasSubstr("#ifndef (TiltCal_Real_Lens)\n\t#declare TiltCal_Real_Lens = 0;\n#end\n\n#if (TiltCal_Real_Lens = 0)"));
 	// As many digits as the file has.
-	EXPECT_NEAR(declared(0), json.at("image_distance_mm").get<double>(), 1e-7);
+	EXPECT_NEAR(declared(thin), json.at("image_distance_mm").get<double>(), 1e-7);
 	EXPECT_NEAR(declared(without), json.at("render").at("image_distance_mm").get<double>(), 1e-7);
-	EXPECT_GT(std::abs(declared(0) - declared(without)), 1e-3);
+	EXPECT_GT(std::abs(declared(thin) - declared(without)), 1e-3);
 }
 
 TEST(Photographs, FilesAreThere)
 {
-	EXPECT_TRUE(std::ifstream(FOLDER + "/lens-plus5.inc")) << "--real-lens was given";
 	for (const char* const name : { "camera-untilted.inc", "camera-plus5.inc", "camera-minus5.inc", "report.txt", "report.html", "overlay-untilted-1.png", "overlay-minus5-6.png" })
 		EXPECT_GT(std::filesystem::file_size(FOLDER + "/" + name), 500u) << name;
 	std::stringstream text;

@@ -34,7 +34,7 @@ dpkg -L povray povray-includes | sort -u | while read -r path; do [ -d "$path" ]
 [ -s ours ] && [ -s theirs ] || fail "an empty list of files; is the distribution's povray installed?"
 comm -12 ours theirs > both
 [ ! -s both ] || fail "files of the distribution's povray: $(cat both)"
-for file in /usr/bin/povray-tilt /usr/bin/tiltcal /usr/bin/tiltcost /etc/povray-tilt/povray.conf \
+for file in /usr/bin/povray-tilt /usr/bin/tiltcal /usr/bin/tiltcost /usr/bin/povray-strips /usr/bin/tiltcal-batch /etc/povray-tilt/povray.conf \
 	/usr/share/doc/povray-tilt/README.md /usr/share/doc/povray-tilt/REFERENCE.md /usr/share/doc/povray-tilt/calib/CALIBRATING.md \
 	/usr/share/doc/povray-tilt/copyright /usr/share/tilt-lens/calibration.schema.json /usr/share/doc/povray-tilt/tests/cli/outside/tilts.cpp \
 	/usr/lib/povray-tilt/lib/libtiltcal.so /usr/lib/povray-tilt/lib/cmake/tiltcal/tiltcalConfig.cmake /usr/lib/povray-tilt/include/tilt-lens/tiltcal/calibrate.h; do

@@ -134,6 +134,16 @@ pilot_time)
 spaces)
 	mkdir "a folder"; scene "a folder/a scene.pov" "$lens"
 	expect 0 "a folder/a scene.pov" $small --error 0.02; prints "^blur_samples" ;;
+rows)
+	# Where the time goes, for what the scene says: seconds of every row, which povray-strips reads.
+	scene s.pov "$lens blur_samples 8, 64 variance 0.001"
+	expect 0 s.pov $small --rows rows.json; silent
+	python3 -c 'import json; r = json.load(open("rows.json")); t = r["row_s"]
+assert len(t) == 72 and min(t) > 0 and r["margin_rows"] == 2 and r["setting"].startswith("blur_samples 8, 64"), r' || fail "rows.json"
+	expect 0 s.pov $small --rows rows.json --setting 0,4,0
+	python3 -c 'import json; r = json.load(open("rows.json")); assert r["margin_rows"] == 0 and r["setting"].startswith("blur_samples 4 "), r' || fail "--setting"
+	refuses 2 "goes with none of" s.pov $small --rows rows.json --time 3s
+	refuses 3 nowhere s.pov --rows nowhere/rows.json ;;
 part)
 	scene s.pov "$lens"
 	expect 0 s.pov $small +SR1 +ER36; prints "3.46 k of them" ;;

@@ -3,7 +3,7 @@
 #
 #   cmake -DTILTCAL= -DPOVRAY= -DCOMPARE=<compare_corners> -DSCENES= -DCALIBRATION= -DSTATE= -DWORK= [-DREAL_LENS=1] -P board.cmake
 #
-# REAL_LENS: through lens-STATE.inc, in place of camera-STATE.inc; the fourth photograph alone.
+# REAL_LENS: with TiltCal_Real_Lens 1; the fourth photograph alone.
 cmake_minimum_required(VERSION 3.25)
 include("${SCENES}/cmake/script.cmake")
 
@@ -20,10 +20,7 @@ file(MAKE_DIRECTORY "${WORK}")
 set(chosen 14) # the first is the most blurred one
 if(REAL_LENS)
 	set(chosen 4)
-	foreach(state IN LISTS states_in_board_pov)
-		configure_file("${CALIBRATION}/lens-${state}.inc" "${WORK}/camera-${state}.inc" COPYONLY)
-	endforeach()
-	set(CALIBRATION "${WORK}")
+	set(real_lens Declare=TiltCal_Real_Lens=1)
 endif()
 file(GLOB photos "${SCENES}/boxes/photos/target/${STATE}-[${chosen}].jpg")
 list(FIND states_in_board_pov "${STATE}" number)
@@ -32,7 +29,7 @@ foreach(photo IN LISTS photos)
 	get_filename_component(name "${photo}" NAME_WE)
 	string(REGEX REPLACE "^.*-" "" photo_number "${name}") # as tiltcal numbers them
 	run(COMMAND "${POVRAY}" "+I${SCENES}/board/board.pov" "+L${SCENES}/board" "+L${CALIBRATION}" +W1800 +H1200
-		Declare=State=${number} Declare=Photo=${photo_number} Declare=TiltCal_Blur_Samples=${SAMPLES}
+		Declare=State=${number} Declare=Photo=${photo_number} Declare=TiltCal_Blur_Samples=${SAMPLES} ${real_lens}
 		-D -A +WT1 +FE "+O${WORK}/${name}.exr")
 	list(APPEND renders "${WORK}/${name}.exr")
 endforeach()

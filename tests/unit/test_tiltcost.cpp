@@ -37,7 +37,7 @@ std::string BlockText(int left, double seconds, int samples, const std::function
 			pixels[size_t(i)].push_back(level(i, k));
 			pixels[size_t(i)].back().samples = 1 << k;
 		}
-	return tilt_lens::PilotText(left, 0, Side, Side, seconds, pixels);
+	return tilt_lens::PilotText(left, 0, Side, Side, seconds, {0, 16, 0.0001, 0.9, false}, pixels);
 }
 
 PilotLevel Grey(double mean, double variance) { return {1, {mean, mean, mean}, variance}; }

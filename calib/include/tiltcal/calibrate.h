@@ -37,9 +37,11 @@ struct MeasureOptions
 	int edges_per_photo = 0;
 	double edge_phase = 0;   ///< 0 to 1: which ones
 	Log log{};
+	/// 0: all processors. What is measured does not depend on it. Each takes memory for a photograph, some 40 bytes a pixel.
+	int threads = 0;
 };
 
-/// Measures every photograph. States come out in the order given; the first is the untilted one. `pitch_mm`: distance of
+/// Measures every photograph, several at once; the log hears of them in their order, by the caller's thread. States come out in the order given; the first is the untilted one. `pitch_mm`: distance of
 /// the sensor's pixel centres. Throws Error: unreadable, no board, sizes differ.
 TILTCAL_API Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, double pitch_mm, const MeasureOptions& options = {});
 
@@ -81,13 +83,14 @@ struct EffectChoice
 
 struct CalibrateOptions
 {
-	/// None: curved where it predicts photographs left out better, else plane.
+	/// None: curved where it predicts photographs left out better, else plane; from there on lens, where aberrations are left over and it predicts them better.
 	std::optional<Model> model;
 	Poses poses = Poses::AUTO;
 	Refinement refinement = Refinement::EDGES;
 	EffectChoice effects{};
 	Log log{};
-	bool real_lens = false;   ///< one lens with aberrations for all states too: Calibration::real_lens
+	/// 0: all processors. Sums come out in another order with another number, and results differ in their last digits.
+	int threads = 0;
 };
 
 /// Solves everything. The paper's model is always solved too, and only refused when it was the one asked for. Then vignetting

@@ -91,10 +91,11 @@ enum class Model
 	PAPER,    ///< Baba, Nakane, Hiura (3), (4), (1), as printed
 	RIGID,    ///< exact; the lens only turns and keeps f and w
 	PLANE,    ///< exact; a free plane of focus in every state
-	CURVED    ///< PLANE, and a field curvature common to all states
+	CURVED,   ///< PLANE, and a field curvature common to all states
+	LENS      ///< CURVED or PLANE, and one real lens for all states from there on: RealLens
 };
 
-/// "paper", "rigid", "plane", "curved".
+/// "paper", "rigid", "plane", "curved", "lens".
 TILTCAL_API const char* NameOf(Model model);
 
 /// Which numbers give a state's surface of focus.
@@ -117,6 +118,7 @@ struct Solution
 	double rms_blur = 0;                  ///< px; of blurs smaller than a pixel, of half the difference of their squares
 	Estimate field_curvature;             ///< C, 1/mm; the mean of the two below
 	Estimate tangential_curvature, sagittal_curvature;
+	double seconds = 0;      ///< that the model took, by the clock; 0 where it was not timed
 	double held_out_px = 0;  ///< of blur left out; 0 when it was not asked for or cannot be had
 	std::vector<Correlation> correlations;   ///< of every pair of w, d, U and C, and of each with the tilts
 	NamedCovariance covariance;
@@ -306,9 +308,11 @@ struct RealLensState
 	Estimate image_distance_mm;
 	Point principal_point{}, principal_point_sigma{};   ///< of the exit pupil, px
 	std::vector<Pose> poses;          ///< camera_from_board; the camera's origin is the centre of the entrance pupil
+	/// Where that lies seen from the untilted state's, camera frame; 0 unless poses are shared.
+	Vec3<double> lens_centre_mm{ 0, 0, 0 };
 };
 
-/// One real lens in all states: what `real_lens` of CalibrateOptions finds. Sigmas are the larger of those by edges and by photographs.
+/// One real lens in all states. Sigmas are the larger of those by edges and by photographs.
 struct RealLens
 {
 	std::string failure;              ///< why there is none; empty when there is one
@@ -318,6 +322,9 @@ struct RealLens
 	std::vector<RealLensState> states;
 	double rms_place = 0, rms_blur = 0;       ///< robust, px
 	double held_out = 0;              ///< RMS residual of photographs predicted by the others, in what is usual of all; 0: cannot be said
+	double held_out_thin = 0;         ///< the same, in the same units, by the thin lens that it starts from
+	bool used = false;                ///< it is the answer: Calibration::TiltOf
+	double seconds = 0;               ///< that it took, by the clock
 
 	/// An aberration in thousandths of the focal length, as the scene language has it.
 	Estimate PerMille(size_t k) const
@@ -332,7 +339,7 @@ struct Calibration
 	Task task;
 	Geometry geometry;           ///< the best one: with distortion where it is significant
 	Geometry pinhole;            ///< without distortion, for a renderer that has none
-	Solution solution;           ///< of the model asked for, with `geometry`
+	Solution solution;           ///< of the model asked for, with `geometry`; where a real lens is the answer, the thin lens that it starts from
 	Solution render;             ///< the same model with `pinhole`: the camera where distortion is switched off
 	bool refined = true;         ///< false: the joint refinement was asked for and did not converge
 	std::vector<PhotographCheck> photographs;   ///< of the exact models
@@ -340,7 +347,7 @@ struct Calibration
 	UntiltedCheck untilted_check;
 	std::vector<StateLens> blur_alone;      ///< the same before the joint refinement: blur, with the geometry held
 	GeometryAlone geometry_alone;
-	std::optional<RealLens> real_lens;      ///< where it was asked for
+	std::optional<RealLens> real_lens;      ///< where it was asked for, or the thin lens leaves aberrations over
 	std::optional<ModelComparison> compared;   ///< when the model was to be chosen
 	Solution paper;              ///< the paper's model, always
 	Geometry paper_geometry;     ///< poses of the paper's stage 1
@@ -349,6 +356,11 @@ struct Calibration
 	std::vector<Effect> effects;   ///< of all; empty before they are chosen
 	LightCheck light;            ///< of the exact models
 	Verdict verdict;             ///< of the exact models; the paper's is not judged
+
+	/// The lens that stands for state s: near its axis the real one's where that is the answer, else the thin one.
+	bool RealLensIsUsed() const { return real_lens && real_lens->used; }
+	const StateLens& TiltOf(size_t s) const { return RealLensIsUsed() ? real_lens->states[s].lens : solution.states[s]; }
+	Model Answer() const { return RealLensIsUsed() ? Model::LENS : solution.model; }
 
 	/// Geometry that belongs to the calibration's own solution (the paper has its own).
 	const Geometry& MainGeometry() const { return solution.model == Model::PAPER ? paper_geometry : geometry; }

@@ -31,6 +31,13 @@ struct StateCameraSigma
 	Vec3<double> lens_centre_mm{ 0, 0, 0 };
 };
 
+/// What makes a real lens of the thin one that stands for it near its axis (povray-patch/lens/MODEL.md, Real lenses).
+struct CameraAberrations
+{
+	double pupil_magnification = 1, focal_length_mm = 0, radius_mm = 0;   ///< radius: of the entrance pupil at which `mm` is stated
+	std::array<double, 6> mm{};   ///< spherical, coma, astigmatism, curvature, distortion, pupil
+};
+
 struct StateCamera
 {
 	std::string state;                 ///< the state's name
@@ -48,6 +55,8 @@ struct StateCamera
 	bool natural_vignetting = false;
 	std::vector<TwoNumbers> rims_mm;   ///< R, Z of each
 	std::optional<TwoNumbers> lateral, axial_per_mm;   ///< red, blue
+	/// Then distortion and field_curvature_per_mm are 0. Project, Unproject and BlurWidth are of the thin lens without them.
+	std::optional<CameraAberrations> aberrations;
 	FixedBlades blades;                ///< the aperture's diameter is that of the circle through their corners
 	// What follows from these, or is not rendered. 0 in a camera that was read from a file.
 	double focal_length_mm = 0, focal_plane_tilt_deg = 0, psf_floor_px = 0;

@@ -23,7 +23,7 @@ Deviation Of(const std::string& name, double truth, const tiltcal::Estimate& fou
 /// Tilts as vectors: along the true one, and across it.
 void AddTilt(const Calibration& c, size_t s, const std::pair<double, double>& truth, Answer& a)
 {
-	const tiltcal::StateLens& lens = c.solution.states[s];
+	const tiltcal::StateLens& lens = c.TiltOf(s);
 	const double phi = truth.second * M_PI / 180;
 	const Eigen::Vector2d along(std::cos(phi), std::sin(phi)), across(-along.y(), along.x());
 	const double found_phi = lens.tilt_direction.value * M_PI / 180;

@@ -56,7 +56,7 @@ void Print(const Camera& camera, const Light& light, const Answer& a)
 		return;
 	}
 	const auto& c = a.calibration;
-	std::printf("%s, %s, tilt error %.4f, reprojection %.3f px, blur %.3f px, %d terms%s\n", tiltcal::NameOf(c.verdict.grade), tiltcal::NameOf(c.solution.model), a.tilt_error, c.geometry.rms, c.solution.rms_blur,
+	std::printf("%s, %s, tilt error %.4f, reprojection %.3f px, blur %.3f px, %d terms%s\n", tiltcal::NameOf(c.verdict.grade), tiltcal::NameOf(c.Answer()), a.tilt_error, c.geometry.rms, c.solution.rms_blur,
 		c.geometry.distortion_terms, c.geometry.shared_poses ? ", shared" : "");
 	for (const Deviation& d : a.deviations)
 		std::printf("    %-20s %12.5f  %12.5f +- %9.5f  %+6.2f\n", d.name.c_str(), d.truth, d.found, d.sigma, d.InSigmas());

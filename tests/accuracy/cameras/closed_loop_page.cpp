@@ -58,7 +58,7 @@ std::string RowOf(const Result& r)
 		if (!worst || std::abs(d.InSigmas()) > std::abs(worst->InSigmas()))
 			worst = &d;
 	}
-	return name + fmt::format("{}, {} | {:.4f} | {:.3f} | {} of {} | {} {:+.1f} |\n", tiltcal::NameOf(c.verdict.grade), tiltcal::NameOf(c.solution.model), r.answer.tilt_error, c.geometry.rms,
+	return name + fmt::format("{}, {} | {:.4f} | {:.3f} | {} of {} | {} {:+.1f} |\n", tiltcal::NameOf(c.verdict.grade), tiltcal::NameOf(c.Answer()), r.answer.tilt_error, c.geometry.rms,
 		of_it.inside, of_it.all, worst ? worst->name : "", worst ? worst->InSigmas() : 0);
 }
 

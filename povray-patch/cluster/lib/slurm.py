@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: AGPL-3.0-or-later
+"""Slurm's own commands. What schedules, watches and requeues is Slurm."""
+import re
+import subprocess
+
+from common import refused
+
+
+def call(command):
+	try:
+		done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+	except FileNotFoundError:
+		raise refused(f"{command[0]}: no such program; is this the cluster's login node? Without Slurm: --local N") from None
+	if done.returncode != 0:
+		raise refused(f"{command[0]} refused: {(done.stderr or done.stdout).strip()}")
+	return done.stdout
+
+
+def largest_array():
+	"""The highest index that an array may have."""
+	found = re.search(r"^MaxArraySize\s*=\s*(\d+)", call(["scontrol", "show", "config"]), re.M)
+	return int(found.group(1)) - 1 if found else 1000
+
+
+def index_list(numbers):
+	"""[0, 1, 2, 5] as 0-2,5."""
+	ranges = []
+	for number in sorted(numbers):
+		if ranges and ranges[-1][1] == number - 1:
+			ranges[-1][1] = number
+		else:
+			ranges.append([number, number])
+	return ",".join(str(a) if a == b else f"{a}-{b}" for a, b in ranges)
+
+
+def sbatch(name, folder, log, command, options, array=None, at_once=0, after=None, after_any=None):
+	"""Submits; the job's id. `command` is words, `log` a name below the folder's log/."""
+	words = ["sbatch", "--parsable", "--requeue", "--open-mode=append", f"--job-name={name}", f"--chdir={folder}",
+		f"--output={folder}/log/{log}", "--kill-on-invalid-dep=yes"]
+	if array is not None:
+		words.append(f"--array={index_list(array)}" + (f"%{at_once}" if at_once else ""))
+	if after:
+		words.append(f"--dependency=afterok:{after}")
+	if after_any:
+		words.append(f"--dependency=afterany:{after_any}")
+	script = "#!/bin/sh\nexec " + " ".join(command) + "\n"
+	done = subprocess.run(words + options, input=script, capture_output=True, text=True, check=False)
+	if done.returncode != 0:
+		raise refused(f"sbatch refused: {(done.stderr or done.stdout).strip()}")
+	return done.stdout.strip().split(";")[0]
+
+
+def active(jobs):
+	"""Those of the jobs that wait or run."""
+	found = []
+	for job in jobs:
+		done = subprocess.run(["squeue", "--noheader", "--format=%i", f"--jobs={job}"], stdin=subprocess.DEVNULL,
+			capture_output=True, text=True, check=False)
+		if done.returncode == 0 and done.stdout.strip():
+			found.append(job)
+	return found

@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: AGPL-3.0-or-later
+"""povray-strips: what is asked for, and in which order it is done."""
+import os
+import shlex
+import sys
+
+import local
+import slurm
+from common import DONE, Failure, catch_signals, program, read_json, refused, usage, write_json
+from join import command, join, status_text
+from light import make_light
+from part import render_task
+from planning import plan
+from pilot import make_cut, task_count
+from scene import files_of, frame_name, inspect, output_name
+from strips_options import HELP, parse
+from submission import create, load, load_cut, missing_units, stamp
+from version import VERSION
+
+
+def main(words, script):
+	if "--help" in words or "-h" in words:
+		print(HELP, end="")
+		return DONE
+	if "--version" in words:
+		print(f"povray-strips {VERSION}")
+		return DONE
+	catch_signals()
+	return program("povray-strips", lambda: _do(parse(words), script))
+
+
+def _do(values, script):
+	if "--part" in values:
+		render_task(load(values["own"][0]), values["--part"])
+	elif "--cut" in values:
+		sub = load(values["--cut"])
+		make_light(sub)
+		make_cut(sub)
+	elif "--join" in values:
+		join(load(values["--join"]), script)
+	elif "--status" in values:
+		print(status_text(load(values["--status"]), script))
+	elif "--resume" in values:
+		return _resume(load(values["--resume"]), values, script)
+	elif "--plan" in values:
+		plan(_describe(values, script), script)
+	else:
+		return _submit(values, script)
+	return DONE
+
+
+def _describe(values, script):
+	"""The submission, all but its folder; every reason to refuse it is found here."""
+	beside = os.path.dirname(script)
+	povray = values.get("--povray", os.path.join(beside, "povray"))
+	povray = os.path.abspath(povray) if "/" in povray else povray
+	scene, options = values["own"][0], values["own"][1:] + values["povray"]
+	found = inspect(povray, scene, options + (["Declare=Strips_Light=0"] if "--light" in values else []), os.getcwd(), "--scene-may-write" in values)
+	output = os.path.abspath(output_name(scene, options, found["suffix"]))
+	frames = found["frames"]
+	targets = [frame_name(output, frame, found["last_frame"]) for frame in frames or [None]]
+	return {"cwd": os.getcwd(), "scene": scene, "options": options, "povray": povray, "tiltcost": os.path.join(beside, "tiltcost"),
+		"picture_rows": os.path.join(beside, "..", "lib", "tilt-lens", "picture_rows"), "parts": values.get("--parts", len(frames) if frames else 40),
+		"frames": frames, "last_frame": found["last_frame"], "width": found["width"], "height": found["height"], "suffix": found["suffix"],
+		"cpus": values.get("--cpus", 1), "at_once": values.get("--nodes", 0), "sbatch": values["--sbatch"], "light": "--light" in values,
+		"pilot_time": values.get("--pilot-time", "10s"), "pilot_blocks": values.get("--pilot-blocks", 400), "setting": values.get("--setting", ""),
+		"equal_rows": "--equal-rows" in values, "may_write": "--scene-may-write" in values, "files": files_of(scene, options),
+		"before": {target: stamp(target) for target in targets if stamp(target)}, "output": output}
+
+
+def _submit(values, script):
+	sub = _describe(values, script)
+	count = task_count(sub)
+	if "--local" not in values and "--dry-run" not in values and count - 1 > slurm.largest_array():
+		raise usage(f"--parts: {count} are more than this cluster's arrays may have ({slurm.largest_array() + 1}, MaxArraySize)")
+	film = f", {len(sub['frames'])} frames" if sub["frames"] else ""
+	print(f"{sub['scene']}: {sub['width']} x {sub['height']}{film} in {count} parts, {len(sub['files'])} files of the scene; into {sub['output']}")
+	if "--dry-run" in values:
+		print("Not submitted (--dry-run). It would be: the pilot, 1 task" + (", with the light" if sub["light"] else "") +
+			f"; the array, {count} tasks of {sub['cpus']} processors" + (f", {sub['at_once']} at once" if sub["at_once"] else "") + "; the join, 1 task")
+		for target in [sub["output"]] if not sub["frames"] else []:
+			if target in sub["before"]:
+				print(f"{target} is there and would be replaced")
+		return DONE
+	folder = create(sub["output"], {name: value for name, value in sub.items() if name != "output"})
+	print(f"Folder: {folder}")
+	return _start(load(folder), list(range(count)), values, script)
+
+
+def _resume(sub, values, script):
+	jobs = read_json(f"{sub['folder']}/jobs.json") or []
+	if jobs and "--local" not in values:
+		still = slurm.active(jobs)
+		if still:
+			raise refused(f"jobs {' '.join(still)} of this submission still wait or run; cancel them first: scancel {' '.join(still)}")
+	cut = load_cut(sub)
+	tasks = list(range(task_count(sub)))
+	if cut is not None:
+		missing = set(missing_units(sub, cut, thorough=True))
+		tasks = [task for task, units in enumerate(cut["tasks"]) if missing & set(units)]
+		print(f"{len(missing)} of {len(cut['units'])} parts are missing")
+	return _start(sub, tasks, values, script)
+
+
+def _start(sub, tasks, values, script):
+	return _run_here(sub, tasks, values["--local"], script) if "--local" in values else _run_there(sub, tasks, script)
+
+
+def _run_here(sub, tasks, at_once, script):
+	local.check(at_once)
+	python = [sys.executable, script]
+	log = f"{sub['folder']}/log"
+	if load_cut(sub) is None and local.run_all([("pilot", python + ["--cut", sub["folder"]])], 1, log):
+		with open(f"{log}/pilot.txt", encoding="utf-8") as file:
+			raise refused(f"the pilot failed:\n{file.read().strip()}")
+	tasks = [task for task in tasks if task < len(load_cut(sub)["tasks"])]
+	local.run_all([(f"part-{task}", python + ["--part", str(task), sub["folder"]]) for task in tasks], at_once, log)
+	join(sub, script)
+	return DONE
+
+
+def _run_there(sub, tasks, script):
+	folder, jobs = sub["folder"], []
+	name = os.path.splitext(os.path.basename(sub["output"]))[0]
+	words = [shlex.quote(script)]
+	options = sub["sbatch"]
+	threads = [f"--cpus-per-task={sub['cpus']}"]
+	pilot = None
+	try:
+		if load_cut(sub) is None:
+			pilot = slurm.sbatch(f"{name}-pilot", folder, "pilot.txt", words + ["--cut", shlex.quote(folder)], threads + options)
+			jobs.append(pilot)
+		array = None
+		if tasks:
+			array = slurm.sbatch(f"{name}-parts", folder, "part-%a.txt", words + ["--part", '"$SLURM_ARRAY_TASK_ID"', shlex.quote(folder)],
+				threads + options, array=tasks, at_once=sub["at_once"], after=pilot)
+			jobs.append(array)
+		jobs.append(slurm.sbatch(f"{name}-join", folder, "join.txt", words + ["--join", shlex.quote(folder)], options, after_any=array))
+	except Failure:
+		if jobs:
+			slurm.call(["scancel"] + jobs)
+		raise
+	write_json(f"{folder}/jobs.json", jobs)
+	ids = ",".join(jobs)
+	print(f"Jobs: {'pilot ' + pilot + ', ' if pilot else ''}{'parts ' + array + ', ' if array else ''}join {jobs[-1]}")
+	print(f"Watch:  squeue --jobs={ids}; {command(script, '--status', sub)}")
+	print(f"Cancel: scancel {' '.join(jobs)}")
+	print(f"What was said: {folder}/log/; the last word is join.txt")
+	return DONE

@@ -1,0 +1,58 @@
+#!/bin/sh
+# SPDX-License-Identifier: AGPL-3.0-or-later
+#
+# tiltcal-batch on one machine; the third argument is the folder of photographs.
+. "$(dirname "$0")/common.sh"
+photos=$compare strips=$bin/tiltcal-batch
+. "$here/batch_list.sh"
+
+case $case in
+usage)
+	expect 0 --help; prints "Usage: tiltcal-batch"; expect 0 --version; grep -Eq '^tiltcal-batch [0-9]+\.[0-9]+\.[0-9]+$' out || fail "version"
+	expect 2; says "LIST is required"
+	expect 2 a b; says "one of them"
+	expect 2 list --frobnicate; says "no option --frobnicate"
+	expect 2 list --local 1 --nodes 2; says "exclude each other"
+	expect 2 list --local 0; says "'0' is no number"
+	expect 2 --line a; says "NAME FOLDER"
+	expect 2 --summary a b; says "and nothing else"
+	expect 3 nowhere.txt --local 1; says "nowhere.txt: cannot be read"
+	expect 3 --summary nowhere; says "no batch of tiltcal-batch"
+	# A wrong line by its file and number.
+	check() { printf "$1\n" > list.txt; expect 2 list.txt --local 1; says "list.txt:$2"; }
+	check '# cameras\n\n/up --board 12x9' "3: '/up' cannot be a camera's name"
+	check 'a --square 25\na --square 26' "2: a is the name of line 1 too"
+	check 'a --untilted "x' "1: No closing quotation"
+	check 'a --out b' "1: leave out --out"
+	check 'log --square 25' "1: 'log' cannot be"
+	printf '#\n' > list.txt; expect 2 list.txt --local 1; says "no line names a camera"
+	echo 'a --square 25' > list.txt
+	expect 2 list.txt --local 1 --out list.txt; says "the results need a folder"
+	expect 3 list.txt --local 1 --tiltcal ./nowhere; says "cannot be run"
+	expect 0 list.txt --dry-run; prints "1 cameras, 1 to calibrate"; [ ! -e list ] || fail "a dry run leaves a folder" ;;
+real)
+	# Two cameras, and one whose photographs are not there: one table, the third named with the command that calibrates it alone.
+	write_list > list.txt
+	printf '#!/bin/sh\n[ "$1" = --version ] || echo "$*" >> %s/calls\nexec %s "$@"\n' "$work" "$bin/tiltcal" > cal; chmod +x cal
+	batch() { expect "$1" list.txt --options "$common" --tiltcal ./cal --local 2; }
+	batch 1; prints "3 cameras, 3 to calibrate"; prints "2 of 3 cameras are done"; prints "absent failed: .*nowhere"
+	[ -s list/plus/report.html ] || fail "no report"
+	prints '^plus  *[a-z]*  *4[0-9.]* ± '
+	python3 "$here/batch_tables.py" list plus:done:2 minus:done:2 absent:failed:0 > out 2>&1 || fail "the tables disagree"
+	alone=$(sed -n 's/^  alone: //p' list/summary.txt)
+	# Nothing is calibrated twice, but what failed; then that too.
+	: > calls; batch 1; prints "3 cameras, 1 to calibrate"; [ "$(grep -c . calls)" = 1 ] || fail "calibrated again: $(cat calls)"
+	mkdir nowhere; cp "$photos"/plus5-[12].jpg nowhere/
+	: > calls; (cd / && sh -c "$alone") > out 2> err || fail "its command"
+	prints "3 of 3 cameras are done"; [ "$(grep -c . calls)" = 1 ] || fail "more than one: $(cat calls)"
+	: > calls; batch 0; prints "3 cameras, 0 to calibrate"; [ ! -s calls ] || fail "calibrated again: $(cat calls)"
+	# Another photograph, another option, a damaged result: these lines, and no other.
+	cp "$photos"/plus5-3.jpg nowhere/2.jpg
+	sed -i 's/^minus .*/& --effects none/' list.txt
+	echo ' ' >> list/plus/calibration.json
+	expect 0 list.txt --options "$common" --tiltcal ./cal --dry-run; prints "3 cameras, 3 to calibrate"
+	printf '%s\n' "$(grep -v '^plus' list.txt)" > list.txt
+	expect 0 list.txt --options "$common" --tiltcal ./cal --dry-run; prints "2 cameras, 2 to calibrate" ;;
+*) echo "no such case: $case"; exit 99 ;;
+esac
+echo "all well"
