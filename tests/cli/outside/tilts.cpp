@@ -18,7 +18,8 @@ try
 	for (size_t s = 0; s < states.size(); ++s)
 	{
 		const tiltcal::StateCamera camera = tiltcal::CameraOfState(calibration, s);
-		std::printf("%s tilt %.4f +- %.4f degrees\n", camera.state.c_str(), camera.lens_tilt_deg, camera.sigma.lens_tilt_deg);
+		const tiltcal::Estimate tilt = calibration.TiltOf(s).lens_tilt;
+		std::printf("%s tilt %.4f +- %.4f degrees\n", camera.state.c_str(), tilt.value, tilt.sigma);
 		const tiltcal::Vec3<double> P = 700.0 * tiltcal::Unproject(camera, { 300, 200 });
 		const tiltcal::Point pixel = *tiltcal::Project(camera, P);
 		std::printf("%s sees (300, 200) at (%.6f, %.6f), blurred by %.3f px\n", camera.state.c_str(), pixel[0], pixel[1], tiltcal::BlurWidth(camera, P));
