@@ -58,11 +58,15 @@ class LightSamples
 	public:
 		LightSamples() : sample() {}
 
-		void Begin(const LensSample& lens_sample)
+		/// For a lens sample.
+		void Draw(const LightDimensions& of_sample)
 		{
-			sample = lens_sample.light;
-			std::fill(asked.begin(), asked.end(), 0u);
+			sample = of_sample;
+			Begin();
 		}
+
+		/// Once more from the start.
+		void Begin() { std::fill(asked.begin(), asked.end(), 0u); }
 
 		/// The next point of the light of that index: at the camera ray's own hit, or at a
 		/// reflection's. Each has a scrambling of its own, the same for all samples of the pixel.

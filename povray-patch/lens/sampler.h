@@ -28,13 +28,13 @@ struct LightDimensions
 struct LensSample
 {
 	double pixel_x, pixel_y, lens_u, lens_v;
-	LightDimensions light = {};
 };
 
 namespace sobol
 {
 
 const int Dimensions = 6;
+const int OwnDimensions = 4;   ///< of lens and pixel; those of lights are worked out where there are such lights
 const int Bits = 32;
 
 /// Direction numbers, bit-reversed: bit k of a point is its (k+1)th binary digit,
@@ -154,8 +154,7 @@ class PixelSampler
 			const uint64_t b = sobol::Mix(a);
 			seed[0] = uint32_t(a); seed[1] = uint32_t(a >> 32);
 			seed[2] = uint32_t(b); seed[3] = uint32_t(b >> 32);
-			lightSeed = sobol::Mix(b);
-			for(int d = 0; d < sobol::Dimensions; d++)
+			for(int d = 0; d < sobol::OwnDimensions; d++)
 				point[d] = 0;
 		}
 
@@ -167,13 +166,21 @@ class PixelSampler
 			LensSample s;
 			Values(0, s.lens_u, s.lens_v);
 			Values(2, s.pixel_x, s.pixel_y);
-			s.light.point[0] = point[4];
-			s.light.point[1] = point[5];
-			s.light.seed = lightSeed;
 			const int bit = __builtin_ctz(++index);
-			for(int d = 0; d < sobol::Dimensions; d++)
+			for(int d = 0; d < sobol::OwnDimensions; d++)
 				point[d] ^= table->v[bit][d];
 			return s;
+		}
+
+		/// Of the sample that Next() gave last.
+		LightDimensions Light() const
+		{
+			LightDimensions light = { { 0, 0 }, sobol::Mix((uint64_t(seed[3]) << 32) | seed[2]) };
+			const uint32_t last = index - 1;
+			for(uint32_t gray = last ^ (last >> 1); gray != 0; gray &= gray - 1)
+				for(int d = 0; d < 2; d++)
+					light.point[d] ^= table->v[__builtin_ctz(gray)][sobol::OwnDimensions + d];
+			return light;
 		}
 
 	private:
@@ -184,9 +191,8 @@ class PixelSampler
 
 		const sobol::Directions *table;
 		uint32_t index;
-		uint32_t seed[4];               // of lens and pixel
-		uint64_t lightSeed;
-		uint32_t point[sobol::Dimensions];
+		uint32_t seed[sobol::OwnDimensions];
+		uint32_t point[sobol::OwnDimensions];
 };
 
 }

@@ -240,9 +240,6 @@ DBL TracePixel::TraceTiltLensRay(Ray& ray, tilt_lens::SampleSums& sums, Colour& 
 		return 0.0;
 	}
 
-	// From the start for every wavelength: their colours are parts of one sample.
-	if(tiltLensLights != NULL)
-		tiltLensLightSamples.Begin(tiltLensSample);
 	Trace::TraceTicket ticket(maxTraceLevel, adcBailout, sceneData->outputAlpha);
 	TraceRay(ray, c, 1.0, ticket, false, camera.Max_Ray_Distance);
 	if(Paints)
@@ -269,6 +266,9 @@ void TracePixel::AddTiltLensSample(Ray& ray, tilt_lens::SampleSums& sums, DBL x,
 		for(tiltLensWavelength = 0; tiltLensWavelength < tilt_lens::Wavelengths; tiltLensWavelength++)
 		{
 			Colour one, its_paint;
+			// From the start: the wavelengths' colours are parts of one sample.
+			if(tiltLensLights != NULL)
+				tiltLensLightSamples.Begin();
 			weight += TraceTiltLensRay<Weighs, Paints>(ray, sums, one, its_paint, x, y, width, height) / tilt_lens::Wavelengths;
 			c[tiltLensWavelength] = one[tiltLensWavelength];
 			paint[tiltLensWavelength] = its_paint[tiltLensWavelength];
@@ -298,6 +298,8 @@ void TracePixel::SampleTiltLensPixel(tilt_lens::TilePixel& pixel, int samples, D
 	while(pixel.sums.count < samples)
 	{
 		tiltLensSample = pixel.sampler.Next();
+		if(tiltLensLights != NULL)
+			tiltLensLightSamples.Draw(pixel.sampler.Light());
 		(this->*addTiltLensSample)(ray, pixel.sums, pixel.x + tiltLensSample.pixel_x - 0.5, pixel.y + tiltLensSample.pixel_y - 0.5, width, height);
 	}
 }

@@ -83,7 +83,8 @@ TEST(LightSamples, AreStratifiedOverAPixel)
 	std::set<int> strata[3][2][2];
 	for(int i = 0; i < n; i++)
 	{
-		lights.Begin(sampler.Next());
+		sampler.Next();
+		lights.Draw(sampler.Light());
 		for(int light : { 2, 0, 1 })
 			for(int time = 0; time < 2; time++)
 			{
@@ -102,17 +103,18 @@ TEST(LightSamples, AreStratifiedOverAPixel)
 TEST(LightSamples, DoNotDependOnOtherLights)
 {
 	PixelSampler sampler(5, 6);
-	const LensSample s = sampler.Next();
+	sampler.Next();
+	const LightDimensions light = sampler.Light();
 	LightSamples a, b;
-	a.Begin(s);
-	b.Begin(s);
+	a.Draw(light);
+	b.Draw(light);
 	const LightPoint p = a.Next(3);
 	b.Next(7);
 	const LightPoint q = b.Next(3);
 	EXPECT_EQ(p.u, q.u);
 	EXPECT_EQ(p.v, q.v);
 	EXPECT_NE(a.Next(3).u, p.u);
-	a.Begin(s);
+	a.Begin();
 	EXPECT_EQ(a.Next(3).u, p.u);
 }
 
@@ -126,7 +128,7 @@ TEST(LightSamples, IntegrateLensAndLightTogether)
 	for(int i = 0; i < n; i++)
 	{
 		const LensSample s = sampler.Next();
-		lights.Begin(s);
+		lights.Draw(sampler.Light());
 		const LightPoint p = lights.Next(0);
 		lit += s.lens_u + s.lens_v + p.u + p.v < 2.0;
 	}
