@@ -41,7 +41,7 @@ foreach(words "camera {" "tilt_lens {" "vignetting natural" "blur_samples TiltCa
 		message(FATAL_ERROR "the camera block lacks '${words}':\n${out}")
 	endif()
 endforeach()
-string(JSON tilt GET "${json}" states 1 lens_tilt_deg)
+string(JSON tilt GET "${json}" states 1 thin lens_tilt_deg) # of the thin camera
 string(JSON opening GET "${json}" aperture_diameter_mm)
 string(JSON k1 GET "${json}" distortion k1)
 foreach(pair "lens_tilt;${tilt}" "aperture_diameter;${opening}" "distortion;${k1}")
