@@ -41,7 +41,7 @@ const int Bits = 32;
 /// which is the order in which the scrambling hash carries.
 struct Directions
 {
-	uint32_t v[Bits][Dimensions];
+	uint32_t v[Bits][OwnDimensions], light[Bits][Dimensions - OwnDimensions];
 	Directions();
 };
 
@@ -91,7 +91,7 @@ inline Directions::Directions()
 			}
 		}
 		for(int i = 0; i < Bits; i++)
-			v[i][d] = ReverseBits(w[i]);
+			(d < OwnDimensions ? v[i][d] : light[i][d - OwnDimensions]) = ReverseBits(w[i]);
 	}
 }
 
@@ -179,7 +179,7 @@ class PixelSampler
 			const uint32_t last = index - 1;
 			for(uint32_t gray = last ^ (last >> 1); gray != 0; gray &= gray - 1)
 				for(int d = 0; d < 2; d++)
-					light.point[d] ^= table->v[__builtin_ctz(gray)][sobol::OwnDimensions + d];
+					light.point[d] ^= table->light[__builtin_ctz(gray)][d];
 			return light;
 		}
 

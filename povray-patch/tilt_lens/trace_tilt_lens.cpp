@@ -208,7 +208,7 @@ bool TracePixel::SendRayThroughTiltLensWithEffects(Ray& ray)
 /// arrives: `c`, transparency too, is multiplied by that. A ray of which nothing arrives is
 /// not traced. `paint` is what the bokeh pigment makes of its colours.
 template<bool Weighs, bool Paints>
-DBL TracePixel::TraceTiltLensRay(Ray& ray, tilt_lens::SampleSums& sums, Colour& c, Colour& paint, DBL x, DBL y, DBL width, DBL height)
+DBL TracePixel::TraceTiltLensRay(Ray& ray, tilt_lens::SampleSums& sums, Colour& c, Colour *paint, DBL x, DBL y, DBL width, DBL height)
 {
 	DBL weight = 1.0;
 
@@ -219,7 +219,7 @@ DBL TracePixel::TraceTiltLensRay(Ray& ray, tilt_lens::SampleSums& sums, Colour& 
 		// No ray, where the pixel looks along or behind the lens: empty, transparent.
 		c = Colour(0.0, 0.0, 0.0, 0.0, 1.0);
 		for(int i = 0; Paints && (i < 3); i++)
-			paint[i] = 1.0;
+			(*paint)[i] = 1.0;
 		sums.stopped++;
 		return 1.0;
 	}
@@ -229,10 +229,10 @@ DBL TracePixel::TraceTiltLensRay(Ray& ray, tilt_lens::SampleSums& sums, Colour& 
 	if(Paints)
 	{
 		// Of rays that a rim stops too: their places belong to the opening.
-		paint = tilt_lens::BokehAt(camera.Bokeh, tiltLensPoint, threadData);
+		*paint = tilt_lens::BokehAt(camera.Bokeh, tiltLensPoint, threadData);
 		for(int i = 0; i < 3; i++)
-			paint[i] *= camera.Tilt_Lens.bokeh_gain[i];
-		weight *= paint.greyscale();
+			(*paint)[i] *= camera.Tilt_Lens.bokeh_gain[i];
+		weight *= paint->greyscale();
 	}
 	if(Weighs && !(weight > 0.0))
 	{
@@ -243,7 +243,7 @@ DBL TracePixel::TraceTiltLensRay(Ray& ray, tilt_lens::SampleSums& sums, Colour& 
 	Trace::TraceTicket ticket(maxTraceLevel, adcBailout, sceneData->outputAlpha);
 	TraceRay(ray, c, 1.0, ticket, false, camera.Max_Ray_Distance);
 	if(Paints)
-		c = Colour(c[pRED] * paint[pRED] * tiltLensWeight, c[pGREEN] * paint[pGREEN] * tiltLensWeight, c[pBLUE] * paint[pBLUE] * tiltLensWeight,
+		c = Colour(c[pRED] * (*paint)[pRED] * tiltLensWeight, c[pGREEN] * (*paint)[pGREEN] * tiltLensWeight, c[pBLUE] * (*paint)[pBLUE] * tiltLensWeight,
 		           c[pFILTER] * weight, c[pTRANSM] * weight);
 	else if(Weighs)
 		c *= weight;
@@ -259,7 +259,7 @@ void TracePixel::AddTiltLensSample(Ray& ray, tilt_lens::SampleSums& sums, DBL x,
 	DBL weight = 0.0;
 
 	if(!Splits)
-		weight = TraceTiltLensRay<Weighs, Paints>(ray, sums, c, paint, x, y, width, height);
+		weight = TraceTiltLensRay<Weighs, Paints>(ray, sums, c, Paints ? &paint : NULL, x, y, width, height);
 	else
 	{
 		c.clear();
@@ -269,7 +269,7 @@ void TracePixel::AddTiltLensSample(Ray& ray, tilt_lens::SampleSums& sums, DBL x,
 			// From the start: the wavelengths' colours are parts of one sample.
 			if(tiltLensLights != NULL)
 				tiltLensLightSamples.Begin();
-			weight += TraceTiltLensRay<Weighs, Paints>(ray, sums, one, its_paint, x, y, width, height) / tilt_lens::Wavelengths;
+			weight += TraceTiltLensRay<Weighs, Paints>(ray, sums, one, Paints ? &its_paint : NULL, x, y, width, height) / tilt_lens::Wavelengths;
 			c[tiltLensWavelength] = one[tiltLensWavelength];
 			paint[tiltLensWavelength] = its_paint[tiltLensWavelength];
 			c[pFILTER] += one[pFILTER] / tilt_lens::Wavelengths;
@@ -288,17 +288,18 @@ void TracePixel::AddTiltLensSample(Ray& ray, tilt_lens::SampleSums& sums, DBL x,
 void TracePixel::SampleTiltLensPixel(tilt_lens::TilePixel& pixel, int samples, DBL width, DBL height)
 {
 	Ray ray;
+	const bool lights = (tiltLensLights != NULL);
 
 	if(pixel.sums.count < samples)
 	{
 		SeedRandomNumbersOfTiltLens(tilt_lens::RandomSeedOfPixel(pixel.x, pixel.y, camera.Tilt_Lens.Seed(), pixel.sums.count));
-		if(tiltLensLights != NULL)
+		if(lights)
 			ForgetWhatShadowedAreaLights();
 	}
 	while(pixel.sums.count < samples)
 	{
 		tiltLensSample = pixel.sampler.Next();
-		if(tiltLensLights != NULL)
+		if(lights)
 			tiltLensLightSamples.Draw(pixel.sampler.Light());
 		(this->*addTiltLensSample)(ray, pixel.sums, pixel.x + tiltLensSample.pixel_x - 0.5, pixel.y + tiltLensSample.pixel_y - 0.5, width, height);
 	}
