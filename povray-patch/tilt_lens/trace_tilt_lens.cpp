@@ -38,6 +38,7 @@ void TracePixel::SetupTiltLens()
 	// False leaves the camera to stock's pinhole path.
 	useFocalBlur = camera_lens.Samples_Lens() || camera_lens.Shows() || lens.moves_pinhole_rays;
 	tiltLensWavelength = tilt_lens::GreenWavelength;
+	tiltLensLights = camera_lens.Samples_Lights() ? &tiltLensLightSamples : NULL;
 	sendRayThroughTiltLens = lens.has_effects ? &TracePixel::SendRayThroughTiltLensWithEffects : &TracePixel::SendRayThroughTiltLens;
 	if(paints)
 		addTiltLensSample = lens.splits ? &TracePixel::AddTiltLensSample<true, true, true> : &TracePixel::AddTiltLensSample<true, true, false>;
@@ -224,6 +225,8 @@ DBL TracePixel::TraceTiltLensRay(Ray& ray, tilt_lens::SampleSums& sums, Colour& 
 		return 0.0;
 	}
 
+	// From the start for every wavelength: their colours are parts of one sample.
+	tiltLensLightSamples.Begin(tiltLensSample);
 	Trace::TraceTicket ticket(maxTraceLevel, adcBailout, sceneData->outputAlpha);
 	TraceRay(ray, c, 1.0, ticket, false, camera.Max_Ray_Distance);
 	if(Paints)
@@ -267,7 +270,11 @@ void TracePixel::SampleTiltLensPixel(tilt_lens::TilePixel& pixel, int samples, D
 	Ray ray;
 
 	if(pixel.sums.count < samples)
+	{
 		SeedRandomNumbersOfTiltLens(tilt_lens::RandomSeedOfPixel(pixel.x, pixel.y, camera.Tilt_Lens.Seed(), pixel.sums.count));
+		if(tiltLensLights != NULL)
+			ForgetWhatShadowedAreaLights();
+	}
 	while(pixel.sums.count < samples)
 	{
 		tiltLensSample = pixel.sampler.Next();
