@@ -26,6 +26,19 @@ namespace pov
 
 using tilt_lens::Vec3d;
 
+namespace
+{
+
+bool HasAreaLights(const vector<LightSource *>& lights)
+{
+	for(size_t i = 0; i < lights.size(); i++)
+		if(lights[i]->Area_Light)
+			return true;
+	return false;
+}
+
+}
+
 /// Chooses, once, how rays go through this camera's lens and what becomes of their light:
 /// what a scene does not name is not in the code that its rays run through.
 void TracePixel::SetupTiltLens()
@@ -38,7 +51,7 @@ void TracePixel::SetupTiltLens()
 	// False leaves the camera to stock's pinhole path.
 	useFocalBlur = camera_lens.Samples_Lens() || camera_lens.Shows() || lens.moves_pinhole_rays;
 	tiltLensWavelength = tilt_lens::GreenWavelength;
-	tiltLensLights = camera_lens.Samples_Lights() ? &tiltLensLightSamples : NULL;
+	tiltLensLights = camera_lens.Samples_Lights() && (HasAreaLights(sceneData->lightSources) || HasAreaLights(sceneData->lightGroupLightSources)) ? &tiltLensLightSamples : NULL;
 	sendRayThroughTiltLens = lens.has_effects ? &TracePixel::SendRayThroughTiltLensWithEffects : &TracePixel::SendRayThroughTiltLens;
 	if(paints)
 		addTiltLensSample = lens.splits ? &TracePixel::AddTiltLensSample<true, true, true> : &TracePixel::AddTiltLensSample<true, true, false>;
@@ -226,7 +239,8 @@ DBL TracePixel::TraceTiltLensRay(Ray& ray, tilt_lens::SampleSums& sums, Colour& 
 	}
 
 	// From the start for every wavelength: their colours are parts of one sample.
-	tiltLensLightSamples.Begin(tiltLensSample);
+	if(tiltLensLights != NULL)
+		tiltLensLightSamples.Begin(tiltLensSample);
 	Trace::TraceTicket ticket(maxTraceLevel, adcBailout, sceneData->outputAlpha);
 	TraceRay(ray, c, 1.0, ticket, false, camera.Max_Ray_Distance);
 	if(Paints)
