@@ -13,6 +13,7 @@
 #include "calibrate/use_threads.h"
 #include "calibrate/verdict.h"
 #include "base/robust.h"
+#include "base/stopwatch.h"
 #include "solve/edge_bias.h"
 #include "solve/solve_lens.h"
 #include "solve/solve_geometry.h"
@@ -25,7 +26,6 @@
 #include "lens/optics.h"
 
 #include <algorithm>
-#include <chrono>
 
 namespace tiltcal
 {
@@ -195,7 +195,7 @@ void Refine(const Task& task, const CalibrateOptions& o, Calibration& c)
 }
 
 /// A real lens where it was asked for; else where a thin one leaves over more than noise, the choice is free, and photographs left out are
-/// predicted better by 1 % at least, as CurvatureIsSeen wants it. With the rims that are written, which decide what of the opening an edge is seen through.
+/// predicted better by WORTH_IT, as CurvatureIsSeen wants it. With the rims that are written, which decide what of the opening an edge is seen through.
 void FindRealLens(const CalibrateOptions& o, Calibration& c)
 {
 	const bool asked = o.model == Model::LENS;
@@ -211,7 +211,7 @@ void FindRealLens(const CalibrateOptions& o, Calibration& c)
 		o.log.Info(fmt::format("no real lens: {}", lens.failure));
 		return;
 	}
-	lens.used = asked || (lens.held_out > 0 && lens.held_out < 0.99 * lens.held_out_thin);
+	lens.used = asked || (lens.held_out > 0 && lens.held_out < WORTH_IT * lens.held_out_thin);
 	o.log.Info(fmt::format("real lens {}: photographs left out are predicted to {:.2f} of what is usual by it, to {:.2f} by {}", lens.used ? "taken" : "not taken", lens.held_out, lens.held_out_thin,
 		NameOf(c.solution.model)));
 }
@@ -273,9 +273,9 @@ Calibration Calibrate(const Task& measured, const CalibrateOptions& o)
 		log.Warn(fmt::format("a render without this lens's distortion misses the corners of the worst photograph by {:.2f} px RMS", worst));
 
 	log.Info("solving the lens (paper)");
-	const auto start = std::chrono::steady_clock::now();
+	const Stopwatch time;
 	c.paper = SolvePaper(task, c.pinhole, c.paper_geometry);
-	c.paper.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+	c.paper.seconds = time.Seconds();
 	if (!c.paper.failure.empty())
 	{
 		if (model == Model::PAPER)

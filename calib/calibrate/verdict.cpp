@@ -6,6 +6,7 @@
 #include "calibrate/check_light.h"
 
 #include "solve/blur_fit.h"
+#include "solve/each_edge.h"
 #include <tiltcal/calibrate.h>
 #include "base/robust.h"
 #include "model/focus_words.h"
@@ -31,10 +32,7 @@ const double MOST_OF_NOISE = 3;
 double NoiseOfBlur(const Task& task)
 {
 	std::vector<double> noise;
-	for (const State& state : task.states)
-		for (const Photo& photo : state.photos)
-			for (const Edge& e : photo.edges)
-				noise.push_back(e.blur_sigma);
+	ForEachEdge(task, [&](size_t, size_t, const Edge& e) { noise.push_back(e.blur_sigma); });
 	return noise.empty() ? std::numeric_limits<double>::infinity() : Median(std::move(noise));
 }
 
@@ -208,10 +206,10 @@ private:
 
 	void Limit()
 	{
-		const double rms = c.RealLensIsUsed() ? c.real_lens->rms_blur : c.solution.rms_blur;
-		if (rms > MOST_OF_NOISE * NoiseOfBlur(c.task))
+		const double rms = c.RealLensIsUsed() ? c.real_lens->rms_blur : c.solution.rms_blur, noise = NoiseOfBlur(c.task);
+		if (rms > MOST_OF_NOISE * noise)
 			Say(Grade::GOOD, fmt::format("the blur fits to {:.2f} px, its noise is {:.2f} px: what limits the result are aberrations that the model {} does not have, and the sigmas hold them only "
-				"as far as they scatter", rms, NoiseOfBlur(c.task), NameOf(c.Answer())));
+				"as far as they scatter", rms, noise, NameOf(c.Answer())));
 	}
 
 	const Calibration& c;

@@ -2,6 +2,7 @@
 
 #include "camera/camera_block.h"
 
+#include "camera/camera_macros.h"
 #include "camera/real_lens_words.h"
 #include "model/names.h"
 #include "model/projection.h"
@@ -33,8 +34,7 @@ std::string PlaceLines(const StateCamera& c, const Place& place, double unit_mm)
 std::string PlainNumbers::Text(const std::string&, double value, Unit unit) const
 {
 	const double scaled = unit == Unit::LENGTH ? value / unit_mm : unit == Unit::PER_LENGTH ? value * unit_mm : value;
-	// POV-Ray has no infinity; a focus at 1e30 is one. And no "-0".
-	return fmt::format("{:.10g}", std::isfinite(scaled) ? scaled + 0. : 1e30);
+	return fmt::format("{:.10g}", SdlNumber(scaled));
 }
 
 std::string DeclaredNumbers::Text(const std::string& name, double, Unit) const { return prefix_ + "_" + name; }

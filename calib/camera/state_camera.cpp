@@ -176,16 +176,12 @@ double ReadFocus(const Node& state)
 
 Json NumberOrNull(double x) { return std::isfinite(x) ? Json(x) : Json(); }
 
-}
-
-StateCamera ReadStateCamera(const std::string& file, const std::string& name)
+StateCamera ThinCamera(const Node& top, const std::string& name)
 {
-	const Json json = Parse(file);
-	const Node top{ &json, file, "" };
 	const Node state = FindState(top, name);
 	StateCamera c;
 	c.state = state["name"].Text();
-	c.model = top[json.contains("thin_model") ? "thin_model" : "model"].Text();
+	c.model = top[top.json->contains("thin_model") ? "thin_model" : "model"].Text();
 	const Node size = top["image_size_px"];
 	size.NeedList(2);
 	c.width = size.At(0).Count();
@@ -211,13 +207,21 @@ StateCamera ReadStateCamera(const std::string& file, const std::string& name)
 	return c;
 }
 
+}
+
+StateCamera ReadStateCamera(const std::string& file, const std::string& name)
+{
+	const Json json = Parse(file);
+	return ThinCamera({ &json, file, "" }, name);
+}
+
 std::optional<StateCamera> ReadRealLensCamera(const std::string& file, const std::string& name)
 {
 	const Json json = Parse(file);
 	const Node top{ &json, file, "" };
 	if (!json.contains("real_lens") || !json["real_lens"].contains("used") || !top["real_lens"]["used"].Flag())
 		return std::nullopt;
-	StateCamera c = ReadStateCamera(file, name);
+	StateCamera c = ThinCamera(top, name);
 	const Node lens = top["real_lens"], states = lens["states"];
 	states.NeedList(0);
 	for (size_t i = 0; i < states.json->size(); ++i)
@@ -238,7 +242,7 @@ std::optional<StateCamera> ReadRealLensCamera(const std::string& file, const std
 		c.lens_tilt_deg = state["lens_tilt_deg"].Number();
 		c.tilt_direction_deg = state["tilt_direction_deg"].Number();
 		const Vec3<double> n = c.LensNormal();
-		c.focus_distance_mm = 1 / (n.z * PowerOfThinLens(a.pupil_magnification, 1 / a.focal_length_mm, n.z, c.image_distance_mm) - 1 / c.image_distance_mm);
+		c.focus_distance_mm = FocusOfThinLens(PowerOfThinLens(a.pupil_magnification, 1 / a.focal_length_mm, n.z, c.image_distance_mm), n.z, c.image_distance_mm);
 		c.distortion = {};
 		c.field_curvature_per_mm = 0;
 		c.aberrations = a;

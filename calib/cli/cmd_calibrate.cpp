@@ -13,6 +13,7 @@
 #include <tiltcal/calibrate.h>
 #include <tiltcal/error.h>
 #include "calibrate/exif_check.h"
+#include "base/stopwatch.h"
 #include "base/files.h"
 #include "base/numbers.h"
 #include "base/plain_text.h"
@@ -255,7 +256,7 @@ void SpellAsOptions(Calibration& c)
 
 void Run(const Options& o, const std::string& command_line)
 {
-	const auto start = std::chrono::steady_clock::now();
+	const Stopwatch time;
 	const Estimate square = ParseSquare(o.square);
 	Board board = MakeBoard(ParseTargetKind(o.target, "--target"), o.board, square.value, o.circle_diameter, "--target");
 	board.square_sigma_mm = square.sigma;
@@ -302,7 +303,7 @@ void Run(const Options& o, const std::string& command_line)
 	WriteEverything(c, notes, [&](size_t s, size_t p) { return pictures.Get(c.task, s, p); }, o.out);
 	fmt::print("{}", SummaryTable(c));
 	fmt::print("written to {}\n", o.out);
-	spdlog::info("done in {:.1f} s", std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+	spdlog::info("done in {:.1f} s", time.Seconds());
 }
 
 }

@@ -54,6 +54,9 @@ void Run(const Options& o)
 	if (o.photo.empty() && !o.overlay.empty())
 		throw UsageError("--overlay: needs --photo, which it is drawn on");
 	const StateCamera camera = ReadStateCamera(o.calibration, o.state);
+	const std::optional<StateCamera> real = o.real_lens ? ReadRealLensCamera(o.calibration, camera.state) : std::nullopt;
+	if (o.real_lens && !real)
+		throw UsageError(fmt::format("--real-lens: {} has no real lens for its answer: calibrate with --model lens", o.calibration));
 	const std::vector<PosePoint> points = ReadPosePoints(o.points);
 	for (const std::string& file : { o.out, o.overlay })
 		if (!file.empty())
@@ -69,9 +72,6 @@ void Run(const Options& o)
 		if (!o.overlay.empty())
 			set.Text(o.overlay, PngOf(DrawPosePoints(photo, solved)));
 	}
-	const std::optional<StateCamera> real = o.real_lens ? ReadRealLensCamera(o.calibration, camera.state) : std::nullopt;
-	if (o.real_lens && !real)
-		throw UsageError(fmt::format("--real-lens: {} has no real lens for its answer: calibrate with --model lens", o.calibration));
 	if (real)
 		solved.pose = SolvePose(*real, solved.points, o.points, o.unit_mm);
 	Report(o, solved, PoseInc(real ? *real : camera, solved.pose, o.unit_mm), set);

@@ -61,7 +61,7 @@ StateCamera CameraOfGlass(const GlassCameras& made, size_t s)
 		c.rims_mm.push_back({ rim.rim.radius, rim.rim.distance });
 	const double power = PowerOfThinLens(m, fit.lens.power, frame.axis.z, c.image_distance_mm);
 	c.focal_length_mm = 1 / power;
-	c.focus_distance_mm = 1 / (power * frame.axis.z - 1 / c.image_distance_mm);
+	c.focus_distance_mm = FocusOfThinLens(power, frame.axis.z, c.image_distance_mm);
 	c.lens_centre_mm = entrance - GlassFrame(made.task.glass, untilted).OnAxis(made.paraxial.entrance_pupil);
 	return c;
 }

@@ -31,6 +31,12 @@ namespace
 
 std::string PlusMinus(const Estimate& e, int digits) { return fmt::format("{:.{}f} +- {:.{}f}", e.value, digits, e.sigma, digits); }
 
+/// A state's row for one model.
+std::string StateRow(const State& state, Model model, const std::string& tilt, const std::string& direction, const std::string& plane, const std::string& focus, double corners, double blur)
+{
+	return fmt::format("{:<12} {:<6} {:>6} {:>16} {:>14} {:>16} {:>16} {:>9.3f} {:>8.3f}\n", state.name, NameOf(model), state.photos.size(), tilt, direction, plane, focus, corners, blur);
+}
+
 /// One row per state for one model.
 std::string StateRows(const Calibration& c, const Solution& solution, const Geometry& g)
 {
@@ -42,8 +48,7 @@ std::string StateRows(const Calibration& c, const Solution& solution, const Geom
 		double squares = 0;
 		for (const double r : g.states[s].photo_rms)
 			squares += r * r;
-		rows += fmt::format("{:<12} {:<6} {:>6} {:>16} {:>14} {:>16} {:>16} {:>9.3f} {:>8.3f}\n", c.task.states[s].name, NameOf(solution.model),
-			c.task.states[s].photos.size(), tilted ? PlusMinus(l.lens_tilt, 3) : "0", tilted ? PlusMinus(l.tilt_direction, 2) : "-",
+		rows += StateRow(c.task.states[s], solution.model, tilted ? PlusMinus(l.lens_tilt, 3) : "0", tilted ? PlusMinus(l.tilt_direction, 2) : "-",
 			tilted ? PlusMinus(l.focal_plane_tilt, 2) : "0", FocusInShort(InverseFocus(l)).value_or(PlusMinus(l.focus_distance, 1)),
 			std::sqrt(squares / double(g.states[s].photo_rms.size())), l.rms_blur);
 	}
@@ -58,8 +63,7 @@ std::string RealLensRows(const Calibration& c)
 	{
 		const RealLensState& state = c.real_lens->states[s];
 		const bool tilted = c.task.states[s].tilted || c.task.untilted_free;
-		rows += fmt::format("{:<12} {:<6} {:>6} {:>16} {:>14} {:>16} {:>16} {:>9.3f} {:>8.3f}\n", c.task.states[s].name, NameOf(Model::LENS), c.task.states[s].photos.size(),
-			tilted ? PlusMinus(state.lens.lens_tilt, 3) : "0", tilted ? PlusMinus(state.lens.tilt_direction, 2) : "-", "-", "-", c.real_lens->rms_place, c.real_lens->rms_blur);
+		rows += StateRow(c.task.states[s], Model::LENS, tilted ? PlusMinus(state.lens.lens_tilt, 3) : "0", tilted ? PlusMinus(state.lens.tilt_direction, 2) : "-", "-", "-", c.real_lens->rms_place, c.real_lens->rms_blur);
 	}
 	return rows;
 }

@@ -14,7 +14,6 @@
 #include <opencv2/core/utility.hpp>
 
 #include <cmath>
-#include <map>
 
 namespace tiltcal
 {
@@ -91,19 +90,18 @@ void Hold(ceres::Problem& problem, double* block, int size, const std::vector<in
 		problem.SetManifold(block, new ceres::SubsetManifold(size, held));
 }
 
-/// Of edges that outlive the problem.
+/// Of edges that outlive the problem. Returns the photographs, each with the pose that is its own unless poses are shared.
 std::vector<PhotographBlocks> Build(const RealLensFit& fit, const std::vector<RealLensEdge>& edges, RealLensNumbers& x, ceres::Problem& problem)
 {
-	// Of one pose, where the states share them.
-	std::map<std::pair<size_t, size_t>, PhotographBlocks> photographs;
+	std::vector<PhotographBlocks> photographs;
 	size_t k = 0;
 	ForEachEdge(fit.task, [&](size_t s, size_t p, const Edge& e)
 	{
-		PhotographBlocks& own = photographs[{ x.shared_poses ? 0 : s, p }];
-		own.pose = x.PoseOf(s, p).data();
-		own.group = x.shared_poses ? 0 : s;
+		double* const pose = x.PoseOf(s, p).data();
+		if (photographs.empty() || photographs.back().pose != pose)
+			photographs.push_back({ {}, pose, s });
 		auto* const cost = new WeightedRealLensEdge{ edges[k++], 1 / std::hypot(e.offset_sigma, fit.error.offset), 1 / std::hypot(e.blur_sigma, fit.error.blur) };
-		own.residuals.push_back(problem.AddResidualBlock(new RealLensCost(cost), new ceres::HuberLoss(2.5 * std::sqrt(2.0)), x.states[s].data(), own.pose, x.centres[s].data(), x.lens.data(), x.c.data()));
+		photographs.back().residuals.push_back(problem.AddResidualBlock(new RealLensCost(cost), new ceres::HuberLoss(2.5 * std::sqrt(2.0)), x.states[s].data(), pose, x.centres[s].data(), x.lens.data(), x.c.data()));
 	});
 	std::vector<int> held;
 	for (int term = 0; term < tilt_lens::AberrationTerms; ++term)
@@ -120,10 +118,7 @@ std::vector<PhotographBlocks> Build(const RealLensFit& fit, const std::vector<Re
 	for (size_t s = 0; s < x.centres.size(); ++s)
 		if (s == 0 || !x.shared_poses)
 			problem.SetParameterBlockConstant(x.centres[s].data());
-	std::vector<PhotographBlocks> all;
-	for (const auto& [at, blocks] : photographs)
-		all.push_back(blocks);
-	return all;
+	return photographs;
 }
 
 std::vector<const double*> SharedBlocks(const RealLensNumbers& x)
@@ -131,8 +126,6 @@ std::vector<const double*> SharedBlocks(const RealLensNumbers& x)
 	std::vector<const double*> blocks{ x.lens.data(), x.c.data() };
 	for (const auto& state : x.states)
 		blocks.push_back(state.data());
-	for (const auto& centre : x.centres)
-		blocks.push_back(centre.data());
 	return blocks;
 }
 

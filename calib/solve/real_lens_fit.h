@@ -53,10 +53,11 @@ struct RealLensFit
 	/// others, its pose being its own: the RMS of all residuals, in their sigmas.
 	struct Judged
 	{
-		Eigen::MatrixXd by_edges;                    ///< of lens, c, the states and their centres, one after the other
+		Eigen::MatrixXd by_edges;                    ///< of lens, c and the states one after the other
 		std::optional<Eigen::MatrixXd> by_photographs;
 		double held_out = 0;                         ///< 0: cannot be had
 	};
+	/// `x` has poses of each state's own.
 	std::optional<Judged> Judge(const std::vector<RealLensEdge>& edges, RealLensNumbers& x) const;
 };
 

@@ -2,6 +2,8 @@
 
 #include "solve/solve_lens.h"
 
+#include "base/stopwatch.h"
+
 #include "model/lens_model.h"
 #include "solve/blur_fit.h"
 #include <tiltcal/error.h>
@@ -12,7 +14,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace tiltcal
@@ -20,9 +21,6 @@ namespace tiltcal
 
 namespace
 {
-
-/// A model with more unknowns must predict photographs better by 1 %: by chance alone a bowl does by some thousandths.
-const double WORTH_IT = 0.99;
 
 void RefuseTooFewEdges(const Task& task, const std::vector<Observation>& observations)
 {
@@ -138,14 +136,13 @@ ModelComparison CompareExact(const Task& task, const Geometry& geometry)
 {
 	const Fitted plane = FitFromNothing(LensModel::PLANE, task, geometry);
 	const double most = MostOf(plane);
-	const auto seconds = [start = std::chrono::steady_clock::now()] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
-	const auto or_failure = [&](Model model, auto solve)
+	const auto or_failure = [](Model model, auto solve)
 	{
 		try
 		{
-			const double before = seconds();
+			const Stopwatch time;
 			Solution s = solve();
-			s.seconds = seconds() - before;
+			s.seconds = time.Seconds();
 			return s;
 		}
 		catch (const Error& e)
@@ -166,10 +163,10 @@ ModelComparison CompareExact(const Task& task, const Geometry& geometry)
 		Keep(LeaveOut(LensModel::RIGID, task, geometry, rigid, most), s);
 		return s;
 	});
-	const double before = seconds();
+	const Stopwatch time;
 	all.plane = SolutionOf(LensModel::PLANE, Model::PLANE, task, geometry, plane);
 	Keep(LeaveOut(LensModel::PLANE, task, geometry, plane, most), all.plane);
-	all.plane.seconds = seconds() - before;
+	all.plane.seconds = time.Seconds();
 	all.curved = or_failure(Model::CURVED, [&] { return Curve(task, geometry, plane, most); });
 	return all;
 }

@@ -2,6 +2,7 @@
 
 #include "solve/solve_real_lens.h"
 
+#include "base/stopwatch.h"
 #include "model/thin_lens_of_real.h"
 #include "model/tilt_angles.h"
 #include "solve/fill_solution.h"
@@ -9,7 +10,6 @@
 #include "solve/solve_joint.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace tiltcal
@@ -92,7 +92,7 @@ RealLensState StateOf(const RealLensAnswer& answer, size_t s, size_t photographs
 RealLens FindRealLens(const Task& task, const Geometry& geometry, const Solution& thin, const std::vector<tilt_lens::Rim>& rims)
 {
 	RealLens found;
-	const auto start = std::chrono::steady_clock::now();
+	const Stopwatch time;
 	const std::optional<RealLensAnswer> answer = SolveRealLens(task, geometry, thin, rims);
 	if (!answer)
 	{
@@ -118,7 +118,7 @@ RealLens FindRealLens(const Task& task, const Geometry& geometry, const Solution
 	found.rms_blur = answer->error.blur;
 	found.held_out = answer->judged.held_out;
 	found.held_out_thin = HeldOutOf(task, geometry, thin, answer->error);
-	found.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+	found.seconds = time.Seconds();
 	return found;
 }
 

@@ -208,10 +208,12 @@ try
 	bool good = true;
 	for (Camera& camera : cameras)
 		good = Count(camera, &camera == &cameras.front() ? stock : ours, work) && good;
-	const bool cheaper = cameras[1].instructions <= cameras[0].instructions;
-	std::printf("%sno effect against stock: %.3f of its instructions (at most 1)\n", cheaper ? "" : "MISSED: ", cameras[1].instructions / cameras[0].instructions);
+	// Counts repeat to 1.2 instructions of 1954 (one standard deviation of stock's in six runs, 1953 to 1956; ours 0.5): four of the difference's are 0.003.
+	const double repeats = 0.003;
+	const bool cheaper = cameras[1].instructions <= (1 + repeats) * cameras[0].instructions;
+	std::printf("%sno effect against stock: %.4f of its instructions (at most 1, told to %.3f)\n", cheaper ? "" : "MISSED: ", cameras[1].instructions / cameras[0].instructions, repeats);
 	// A shift is settled with the window; other pixels, other branches of the rays, by a few instructions.
-	const bool shifts_free = std::fabs(cameras[2].instructions - cameras[1].instructions) <= 0.003 * cameras[1].instructions;
+	const bool shifts_free = std::fabs(cameras[2].instructions - cameras[1].instructions) <= repeats * cameras[1].instructions;
 	std::printf("%sshift costs nothing: %+.1f instructions\n", shifts_free ? "" : "MISSED: ", cameras[2].instructions - cameras[1].instructions);
 	if (write)
 	{

@@ -77,7 +77,6 @@ struct Result
 	Row predicted;
 	double share = 0, error_sigma = 0, time_sigma = 0;
 	double error = 0, uncertain = 0, rays = 0, cpu = 0;   ///< as rendered; `uncertain`: one standard deviation of `error`, relative
-	bool judge_time = false;
 
 	double ErrorOff() const { return predicted.error / error - 1; }
 	double RaysOff() const { return predicted.rays / rays - 1; }
@@ -85,7 +84,7 @@ struct Result
 	double ErrorLimit() const { return std::max(ErrorBound, Student * std::hypot(error_sigma, uncertain)); }
 	double TimeLimit() const { return std::max(TimeBound, Student * time_sigma); }
 	/// Time is rays times what one takes: the bound of the product holds for the factor that is the machine's no affair.
-	bool Good() const
+	bool Good(bool judge_time) const
 	{
 		return std::abs(ErrorOff()) <= ErrorLimit() && std::abs(RaysOff()) <= TimeLimit() && (!judge_time || std::abs(TimeOff()) <= TimeLimit());
 	}
@@ -123,7 +122,7 @@ void Replace(std::string& text, const std::string& what, const std::string& by)
 }
 
 /// Scene file and options that render `scene` with these settings.
-std::vector<std::string> SceneWords(const Places& places, const Scene& scene, const Row& row, int seed, unsigned threads = 1)
+std::vector<std::string> SceneWords(const Places& places, const Scene& scene, const Row& row, int seed, unsigned threads)
 {
 	const std::string width = fmt::format("+W{}", places.effort.width), height = fmt::format("+H{}", places.effort.height), work = fmt::format("+WT{}", threads);
 	if (!scene.ours)
@@ -277,7 +276,6 @@ std::vector<Result> CheckScene(const Places& places, const Scene& scene)
 		Judge(rendered.picture, truth, result);
 		result.rays = rendered.rays;
 		result.cpu = rendered.cpu;
-		result.judge_time = places.effort.judge_time;
 		results.push_back(result);
 	}
 	return results;
@@ -297,7 +295,7 @@ void Write(const Places& places, const std::vector<Result>& results)
 		csv += fmt::format("{},{},{},{:g},{:.5g},{:.3g},{:.5g},{:.3g},{:.0f},{:.0f},{:.4g},{:.3g},{:.4g},{:.4g}\n", r.scene, p.min, p.max, p.variance, p.error, r.error_sigma, r.error, r.uncertain,
 			p.rays, r.rays, p.cpu, r.time_sigma, r.cpu, r.share);
 		html += fmt::format("<tr{}><td>{}</td><td>{:.1f} %</td><td>{}, {}, {:g}</td><td>{:.4f}</td><td>{:.4f}</td><td>{:+.0f} %</td><td>{:.0f} %</td><td>{:.0f}</td><td>{:.0f}</td><td>{:+.0f} %</td>"
-			"<td>{:.2f}</td><td>{:.2f}</td><td>{:+.0f} %</td><td>{:.0f} %</td></tr>\n", r.Good() ? "" : " class=\"lost\"", r.scene, 100 * r.share, p.min, p.max, p.variance, p.error, r.error, 100 * r.ErrorOff(), 100 * r.ErrorLimit(),
+			"<td>{:.2f}</td><td>{:.2f}</td><td>{:+.0f} %</td><td>{:.0f} %</td></tr>\n", r.Good(places.effort.judge_time) ? "" : " class=\"lost\"", r.scene, 100 * r.share, p.min, p.max, p.variance, p.error, r.error, 100 * r.ErrorOff(), 100 * r.ErrorLimit(),
 			p.rays, r.rays, 100 * r.RaysOff(), p.cpu, r.cpu, 100 * r.TimeOff(), 100 * r.TimeLimit());
 	}
 	html += "</table>\n";
@@ -340,7 +338,7 @@ int main(int argc, char** argv)
 				results.push_back(r);
 				const Row& p = r.predicted;
 				fmt::print("{} {:<11} {:4.1f} %  {:>2}, {:>4}, {:<7g} error {:.5f} is {:.5f} ({:+3.0f} % of {:.0f} %; known to {:.1f} %)  rays {:.0f} is {:.0f} ({:+3.0f} %)  CPU {:6.2f} s is {:6.2f} s ({:+3.0f} % of {:.0f} %)\n",
-					r.Good() ? ' ' : '!', r.scene, 100 * r.share, p.min, p.max, p.variance, p.error, r.error, 100 * r.ErrorOff(), 100 * r.ErrorLimit(), 100 * r.uncertain,
+					r.Good(places.effort.judge_time) ? ' ' : '!', r.scene, 100 * r.share, p.min, p.max, p.variance, p.error, r.error, 100 * r.ErrorOff(), 100 * r.ErrorLimit(), 100 * r.uncertain,
 					p.rays, r.rays, 100 * r.RaysOff(), p.cpu, r.cpu, 100 * r.TimeOff(), 100 * r.TimeLimit());
 				std::fflush(stdout);
 			}
@@ -348,7 +346,7 @@ int main(int argc, char** argv)
 		if (results.empty())
 			throw std::runtime_error("no scene of that name");
 		Write(places, results);
-		return std::all_of(results.begin(), results.end(), [](const Result& r) { return r.Good(); }) ? 0 : 1;
+		return std::all_of(results.begin(), results.end(), [&](const Result& r) { return r.Good(places.effort.judge_time); }) ? 0 : 1;
 	}
 	catch (const std::exception& e)
 	{

@@ -198,13 +198,13 @@ balance)
 	# Parts that take equally long where rows do not: a dear lower half, upper quarter, band in the middle.
 	half_scene > half.pov; top_scene > top.pov; band_scene > band.pov
 	for name in half top band; do
-		size="+W96 +H192 --parts 6"
+		size="+W192 +H384 --parts 6" # half a second a part and more: of tenths, a processor's moods are a part
 		expect 0 $name.pov $size --local 2 --pilot-time 20s +Ocost.png; prints "equal cost by the pilot"; cost=$(folder)
 		expect 0 $name.pov $size --local 2 --equal-rows +Orows.png
 		# CPU seconds of a part: the least of three, because what else runs here only adds to them.
 		echo "$name: $(python3 "$here/balance.py" "$strips" 3 "$cost") by cost, $(python3 "$here/balance.py" "$strips" 1 "$(folder)") by rows" | tee ratio
 		# Issue 18: at most 1.3 where equal rows give 2 or more. What the pilot does not know is smaller: a row's cost is the mean of
-		# 6 blocks, and where cost jumps, it jumps between two rows of blocks.
+		# 12 blocks, and where cost jumps, it jumps between two rows of blocks.
 		awk '{ exit !($2 <= 1.3 && $5 >= 2) }' ratio || fail "not balanced: $(cat ratio)"
 	done ;;
 plan)

@@ -10,19 +10,11 @@ import slurm
 from batch_line import enter, is_done, run_line
 from batch_options import HELP, folder_for, parse, read_list
 from batch_summary import write_summary
-from common import DONE, REFUSED, Failure, catch_signals, file_error, program, read_json, refused, usage, write_json
-from version import VERSION
+from common import DONE, REFUSED, Failure, file_error, program, read_json, usage, write_json
 
 
 def main(words, script):
-	if "-h" in words or "--help" in words:
-		print(HELP, end="")
-		return DONE
-	if "--version" in words:
-		print(f"tiltcal-batch {VERSION}")
-		return DONE
-	catch_signals()
-	return program("tiltcal-batch", lambda: _do(parse(words), script))
+	return program("tiltcal-batch", HELP, words, lambda: _do(parse(words), script))
 
 
 def _do(values, script):
@@ -104,10 +96,7 @@ def _batch(values, script):
 
 def _check_nothing_runs(folder):
 	"""Two at once would write into the same folders."""
-	jobs = read_json(f"{folder}/jobs.json")
-	still = slurm.active(jobs) if jobs else []
-	if still:
-		raise refused(f"{folder}: jobs {' '.join(still)} of this batch still wait or run; cancel them first: scancel {' '.join(still)}")
+	slurm.refuse_active(folder, f"{folder}: ", "this batch")
 
 
 def _run_here(folder, batch, waiting, at_once, script):
@@ -117,20 +106,15 @@ def _run_here(folder, batch, waiting, at_once, script):
 
 
 def _run_there(folder, batch, waiting, values, script):
-	name, options, jobs = os.path.basename(folder), values["--sbatch"], []
+	name, options = os.path.basename(folder), values["--sbatch"]
 	own = [shlex.quote(script)]
-	try:
+	with slurm.all_or_none(folder) as jobs:
 		array = None
 		if waiting:
 			array = slurm.sbatch(name, folder, "task-%a.txt", own + ["--task", '"$SLURM_ARRAY_TASK_ID"', shlex.quote(folder)],
 				[f"--cpus-per-task={batch['cpus']}"] + options, array=waiting, at_once=values.get("--nodes", 0))
 			jobs.append(array)
 		jobs.append(slurm.sbatch(f"{name}-table", folder, "table.txt", own + ["--summary", shlex.quote(folder)], options, after_any=array))
-	except Failure:
-		if jobs:
-			slurm.call(["scancel"] + jobs)
-		raise
-	write_json(f"{folder}/jobs.json", jobs)
 	print(f"Jobs: {'cameras ' + array + ', ' if array else ''}table {jobs[-1]}")
 	print(f"Watch:  squeue --jobs={','.join(jobs)}")
 	print(f"Cancel: scancel {' '.join(jobs)}")

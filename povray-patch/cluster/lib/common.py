@@ -9,6 +9,8 @@ import socket
 import subprocess
 import sys
 
+from version import VERSION
+
 DONE, REFUSED, USAGE, FILE = 0, 1, 2, 3
 
 
@@ -119,8 +121,15 @@ def run(command, log=None, env=None, cwd=None):
 		raise
 
 
-def program(name, main):
-	"""Exit code of `main()`; its refusals as one message."""
+def program(name, help_text, words, main):
+	"""Exit code of `main()`, or of --help and --version; its refusals as one message."""
+	if "-h" in words or "--help" in words:
+		print(help_text, end="")
+		return DONE
+	if "--version" in words:
+		print(f"{name} {VERSION}")
+		return DONE
+	catch_signals()
 	try:
 		return main()
 	except (Failure, Interrupted) as error:

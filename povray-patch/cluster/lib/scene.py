@@ -65,8 +65,7 @@ def inspect(povray, scene, options, work, may_write):
 	if kind not in SUFFIX:
 		raise refused(f"pictures of the format {kind} are not joined; write PNG (+FN, +FN16) or OpenEXR (+FE)")
 	return {"width": int(size.group(1)), "height": int(size.group(2)), "suffix": SUFFIX[kind],
-		"frames": list(range(first, last + 1)) if first is not None and last > first else None,
-		"photons": False, "first_frame": first, "last_frame": last}
+		"frames": list(range(first, last + 1)) if first is not None and last > first else None, "last_frame": last}
 
 
 def _log(words, env):

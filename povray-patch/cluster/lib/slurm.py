@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """Slurm's own commands. What schedules, watches and requeues is Slurm."""
+import contextlib
 import re
 import subprocess
 
-from common import refused
+from common import Failure, read_json, refused, write_json
 
 
 def call(command):
@@ -50,7 +51,27 @@ def sbatch(name, folder, log, command, options, array=None, at_once=0, after=Non
 	return done.stdout.strip().split(";")[0]
 
 
-def active(jobs):
+@contextlib.contextmanager
+def all_or_none(folder):
+	"""A list for the ids of jobs that belong together. Where one is refused the others are cancelled; else jobs.json has them all."""
+	jobs = []
+	try:
+		yield jobs
+	except Failure:
+		if jobs:
+			call(["scancel"] + jobs)
+		raise
+	write_json(f"{folder}/jobs.json", jobs)
+
+
+def refuse_active(folder, place, whose):
+	"""Refuses while jobs of jobs.json wait or run."""
+	still = _active(read_json(f"{folder}/jobs.json") or [])
+	if still:
+		raise refused(f"{place}jobs {' '.join(still)} of {whose} still wait or run; cancel them first: scancel {' '.join(still)}")
+
+
+def _active(jobs):
 	"""Those of the jobs that wait or run."""
 	found = []
 	for job in jobs:

@@ -6,7 +6,7 @@ import sys
 
 import local
 import slurm
-from common import DONE, Failure, catch_signals, program, read_json, refused, usage, write_json
+from common import DONE, program, refused, usage
 from join import command, join, status_text
 from light import make_light
 from part import render_task
@@ -15,18 +15,10 @@ from pilot import make_cut, task_count
 from scene import files_of, frame_name, inspect, output_name
 from strips_options import HELP, parse
 from submission import create, load, load_cut, missing_units, stamp
-from version import VERSION
 
 
 def main(words, script):
-	if "--help" in words or "-h" in words:
-		print(HELP, end="")
-		return DONE
-	if "--version" in words:
-		print(f"povray-strips {VERSION}")
-		return DONE
-	catch_signals()
-	return program("povray-strips", lambda: _do(parse(words), script))
+	return program("povray-strips", HELP, words, lambda: _do(parse(words), script))
 
 
 def _do(values, script):
@@ -88,11 +80,8 @@ def _submit(values, script):
 
 
 def _resume(sub, values, script):
-	jobs = read_json(f"{sub['folder']}/jobs.json") or []
-	if jobs and "--local" not in values:
-		still = slurm.active(jobs)
-		if still:
-			raise refused(f"jobs {' '.join(still)} of this submission still wait or run; cancel them first: scancel {' '.join(still)}")
+	if "--local" not in values:
+		slurm.refuse_active(sub["folder"], "", "this submission")
 	cut = load_cut(sub)
 	tasks = list(range(task_count(sub)))
 	if cut is not None:
@@ -120,13 +109,13 @@ def _run_here(sub, tasks, at_once, script):
 
 
 def _run_there(sub, tasks, script):
-	folder, jobs = sub["folder"], []
+	folder = sub["folder"]
 	name = os.path.splitext(os.path.basename(sub["output"]))[0]
 	words = [shlex.quote(script)]
 	options = sub["sbatch"]
 	threads = [f"--cpus-per-task={sub['cpus']}"]
 	pilot = None
-	try:
+	with slurm.all_or_none(folder) as jobs:
 		if load_cut(sub) is None:
 			pilot = slurm.sbatch(f"{name}-pilot", folder, "pilot.txt", words + ["--cut", shlex.quote(folder)], threads + options)
 			jobs.append(pilot)
@@ -136,11 +125,6 @@ def _run_there(sub, tasks, script):
 				threads + options, array=tasks, at_once=sub["at_once"], after=pilot)
 			jobs.append(array)
 		jobs.append(slurm.sbatch(f"{name}-join", folder, "join.txt", words + ["--join", shlex.quote(folder)], options, after_any=array))
-	except Failure:
-		if jobs:
-			slurm.call(["scancel"] + jobs)
-		raise
-	write_json(f"{folder}/jobs.json", jobs)
 	ids = ",".join(jobs)
 	print(f"Jobs: {'pilot ' + pilot + ', ' if pilot else ''}{'parts ' + array + ', ' if array else ''}join {jobs[-1]}")
 	print(f"Watch:  squeue --jobs={ids}; {command(script, '--status', sub)}")
