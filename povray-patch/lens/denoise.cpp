@@ -32,18 +32,29 @@ const float Opposition = 0.462f;        // 2^1.3 - 2
 // The least of eighteen estimates is below the truth: by 8 % of the error on average over
 // five scenes at 8 to 64 samples (tests/accuracy, estimate).
 const double Optimism = 1.08 * 1.08;
+// What is brighter than a picture shows is not seen. A half of the samples that met a rare light is brighter
+// than all of them, so kernels are chosen by halves up to here,
+const float ChoiceRange = 1.5f;
+// and blocks are judged by predicting halves up to twice what is shown: one sample of a half counts as two of all.
+const float JudgedRange = 2.0f;
+// A mean of all samples has 1 / 2^1.3 = 0.41 of a half's variance. What is to replace it must predict the other half as well as
+// a half without noise but that would; a little more, because two predictions are but samples.
+const float AllowedError = 0.5f;
 // Kernels reach KernelReach pixels, and what they promise is averaged over a few more.
 const int Margin = KernelReach + SmoothingReach;
-static_assert(Margin == DenoiseReach, "the header promises how far pixels look");
+static_assert(Margin + JudgedBlock - 1 <= DenoiseReach, "the header promises how far pixels look");
+
+inline float UpTo(float range, float x) { return std::min(range, std::max(0.0f, x)); }
 
 /// Two parts of a band of the picture, with margins, and what is best so far.
 struct Band
 {
 	PixelPlane first[3], later[3], mean[PictureChannels];
-	PixelPlane variance;                     // of the mean, own estimate, smoothed
-	PixelPlane cost, best[PictureChannels];
+	PixelPlane variance;                // of the mean as chosen by, own estimate, smoothed
+	PixelPlane linear;                  // the same of all its light: what of it neighbours get
+	PixelPlane cost, best[PictureChannels], best_first[3], best_later[3];
 	bool used[PictureChannels];         // not 0 everywhere, as transparency mostly is
-	PixelPlane rows, smooth, other, bias, noise, weight;   // for TryKernel: fresh memory for every kernel is slow
+	PixelPlane rows, smooth, smooth_first[3], smooth_later[3], other, bias, noise, weight;   // for TryKernel: fresh memory for every kernel is slow
 };
 
 PixelPlane CutPlane(const NoisyPicture& picture, const std::vector<float>& from, int top, int bottom)
@@ -63,7 +74,7 @@ void CutBand(const NoisyPicture& picture, int top, int bottom, Band& band)
 	const PixelPlane share = CutPlane(picture, picture.share, top, bottom);
 	for(int c = 0; c < PictureChannels; c++)
 		band.mean[c] = CutPlane(picture, picture.mean[c], top, bottom);
-	PixelPlane variance(share.width, share.height);
+	PixelPlane variance(share.width, share.height), linear(share.width, share.height);
 	for(int c = 0; c < 3; c++)
 	{
 		band.first[c] = CutPlane(picture, picture.first[c], top, bottom);
@@ -74,20 +85,43 @@ void CutBand(const NoisyPicture& picture, int top, int bottom, Band& band)
 			if(!(s < 1.0f))
 				continue;
 			band.later[c].v[i] = (band.mean[c].v[i] - s * band.first[c].v[i]) / (1.0f - s);
-			const float difference = band.first[c].v[i] - band.later[c].v[i];
-			variance.v[i] += difference * difference * s * (1.0f - s) * (NetGain / 3.0f);
+			const float whole = band.first[c].v[i] - band.later[c].v[i];
+			const float difference = UpTo(ChoiceRange, band.first[c].v[i]) - UpTo(ChoiceRange, band.later[c].v[i]);
+			const float part = s * (1.0f - s) * (NetGain / 3.0f);
+			linear.v[i] += whole * whole * part;
+			variance.v[i] += difference * difference * part;
 		}
 	}
-	for(PixelPlane *p : { &band.rows, &band.smooth, &band.other, &band.bias, &band.noise, &band.weight, &band.variance })
+	for(PixelPlane *p : { &band.rows, &band.smooth, &band.other, &band.bias, &band.noise, &band.weight, &band.variance, &band.linear })
 		*p = PixelPlane(share.width, share.height);
+	for(int c = 0; c < 3; c++)
+		band.smooth_first[c] = band.smooth_later[c] = band.smooth;
 	Smooth(variance, band.rows, band.variance);
+	Smooth(linear, band.rows, band.linear);
 	for(float& v : band.variance.v)
 		v += 1e-14f;                    // flat parts divide by it
+	for(float& v : band.linear.v)
+		v += 1e-14f;
 	band.cost = band.variance;
 	for(int c = 0; c < PictureChannels; c++)
 	{
 		band.best[c] = band.mean[c];
+		if(c < 3)
+		{
+			band.best_first[c] = band.first[c];
+			band.best_later[c] = band.later[c];
+		}
 		band.used[c] = std::any_of(band.mean[c].v.begin(), band.mean[c].v.end(), [](float v) { return v != 0.0f; });
+	}
+}
+
+/// Where a kernel has weight, its smoothed plane takes that much of the plane's place in `best`.
+void Blend(const PixelPlane& plane, const PixelPlane& smooth, const PixelPlane& weight, PixelPlane& best)
+{
+	for(size_t i = 0; i < plane.v.size(); i++)
+	{
+		const float changed = plane.v[i] + weight.v[i] * (smooth.v[i] - plane.v[i]);
+		best.v[i] = weight.v[i] > 0.0f ? changed : best.v[i];
 	}
 }
 
@@ -99,13 +133,16 @@ void TryKernel(const Kernel& kernel, Band& band)
 		band.other.v[i] = Opposition * band.variance.v[i];
 	for(int c = 0; c < 3; c++)
 	{
-		kernel.Apply(band.first[c], band.rows, band.smooth);
-		kernel.Apply(band.later[c], band.rows, band.noise);
+		const PixelPlane& first = band.first[c], & later = band.later[c];
+		PixelPlane& smooth_first = band.smooth_first[c], & smooth_later = band.smooth_later[c];
+		kernel.Apply(first, band.rows, smooth_first);
+		kernel.Apply(later, band.rows, smooth_later);
 		for(size_t i = 0; i < pixels; i++)
-			band.other.v[i] += (band.smooth.v[i] - band.later[c].v[i]) * (band.noise.v[i] - band.first[c].v[i]) * (1.0f / 3.0f);
+			band.other.v[i] += (UpTo(ChoiceRange, smooth_first.v[i]) - UpTo(ChoiceRange, later.v[i])) *
+			                   (UpTo(ChoiceRange, smooth_later.v[i]) - UpTo(ChoiceRange, first.v[i])) * (1.0f / 3.0f);
 	}
 	Smooth(band.other, band.rows, band.bias);
-	kernel.ApplySquared(band.variance, band.rows, band.noise);
+	kernel.ApplySquared(band.linear, band.rows, band.noise);
 
 	bool any = false;
 	for(size_t i = 0; i < pixels; i++)
@@ -121,11 +158,52 @@ void TryKernel(const Kernel& kernel, Band& band)
 		if(!band.used[c])
 			continue;
 		kernel.Apply(band.mean[c], band.rows, band.smooth);
-		for(size_t i = 0; i < pixels; i++)
+		Blend(band.mean[c], band.smooth, band.weight, band.best[c]);
+		if(c >= 3)
+			continue;
+		Blend(band.first[c], band.smooth_first[c], band.weight, band.best_first[c]);
+		Blend(band.later[c], band.smooth_later[c], band.weight, band.best_later[c]);
+	}
+}
+
+/// Whether what was made of either half predicts the other, over a rectangle of the band (right, bottom exclusive), about as
+/// well as the pixels' own means do.
+bool Predicts(Band& band, int left, int top, int right, int bottom)
+{
+	float made = 0.0f, own = 0.0f;
+	for(int c = 0; c < 3; c++)
+		for(int y = top; y < bottom; y++)
+			for(int x = left; x < right; x++)
+			{
+				const float first = UpTo(JudgedRange, band.first[c].At(x, y)), later = UpTo(JudgedRange, band.later[c].At(x, y));
+				const float by_first = UpTo(JudgedRange, band.best_first[c].At(x, y)) - later, by_later = UpTo(JudgedRange, band.best_later[c].At(x, y)) - first;
+				made += by_first * by_first + by_later * by_later;
+				own += (first - later) * (first - later);
+			}
+	return made <= own * (1.0f + AllowedError);
+}
+
+/// Blocks of the picture in which that is not so stay as they were: where a bright light is next to what has no noise, a
+/// kernel that is best on average makes streaks of it.
+void JudgeBlocks(const NoisyPicture& picture, int top, int bottom, Band& band)
+{
+	for(int y = top; y <= bottom; )
+	{
+		const int below = std::min(bottom + 1, y + JudgedBlock - (picture.top + y) % JudgedBlock);
+		for(int x = 0; x < picture.width; )
 		{
-			const float changed = band.mean[c].v[i] + band.weight.v[i] * (band.smooth.v[i] - band.mean[c].v[i]);
-			band.best[c].v[i] = band.weight.v[i] > 0.0f ? changed : band.best[c].v[i];
+			const int beside = std::min(picture.width, x + JudgedBlock - (picture.left + x) % JudgedBlock);
+			if(!Predicts(band, x + Margin, y - top + Margin, beside + Margin, below - top + Margin))
+				for(int v = y - top + Margin; v < below - top + Margin; v++)
+					for(int u = x + Margin; u < beside + Margin; u++)
+					{
+						for(int c = 0; c < PictureChannels; c++)
+							band.best[c].At(u, v) = band.mean[c].At(u, v);
+						band.cost.At(u, v) = band.variance.At(u, v);
+					}
+			x = beside;
 		}
+		y = below;
 	}
 }
 
@@ -137,14 +215,18 @@ double DenoiseRows(const NoisyPicture& picture, int top, int bottom, std::vector
 	Band band;
 	double error = 0.0;
 
-	CutBand(picture, top, bottom, band);
+	// Whole blocks.
+	const int first = std::max(0, top - (picture.top + top) % JudgedBlock);
+	const int last = std::min(picture.height - 1, bottom + JudgedBlock - 1 - (picture.top + bottom) % JudgedBlock);
+	CutBand(picture, first, last, band);
 	for(const Kernel& kernel : kernels)
 		TryKernel(kernel, band);
+	JudgeBlocks(picture, first, last, band);
 
 	for(int y = top; y <= bottom; y++)
 		for(int x = 0; x < picture.width; x++)
 		{
-			const size_t from = size_t(y - top + Margin) * band.cost.width + x + Margin;
+			const size_t from = size_t(y - first + Margin) * band.cost.width + x + Margin;
 			for(int c = 0; c < PictureChannels; c++)
 				denoised[c][size_t(y) * picture.width + x] = band.best[c].v[from];
 			error += band.cost.v[from] * Optimism;

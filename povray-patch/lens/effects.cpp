@@ -242,6 +242,7 @@ std::string IdleWords(const LensSpec& spec, const TiltLens& lens)
 		{ spec.axial_given && FocusesColours(lens), NameOf(Word::AxialChromatic) },
 		{ lens.aberrates && !AberratesPinholeRays(lens), NameOf(Word::Aberrations) },
 		{ spec.denoise, NameOf(Word::Denoise) },
+		{ spec.area_light_grid, NameOf(Word::AreaLightGrid) },
 		{ spec.show_focus, NameOf(Word::ShowFocus) }
 	};
 	std::string names;

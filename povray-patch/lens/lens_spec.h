@@ -77,6 +77,9 @@ struct LensSpec
 	/// Let pixels learn from their neighbours.
 	bool denoise = false;
 
+	/// Ask the whole grid of every area light at every hit, as stock does.
+	bool area_light_grid = false;
+
 	/// Which of the equally good sets of samples to take.
 	Given<double> seed;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 //
-// The samples of one pixel: an Owen-scrambled Sobol sequence in four dimensions,
-// pixel x, pixel y, lens u, lens v. Seeded by the pixel's coordinates and the scene's
+// The samples of one pixel: an Owen-scrambled Sobol sequence in six dimensions,
+// lens u, lens v, pixel x, pixel y, and two for area lights (light_samples.h). Seeded by the pixel's coordinates and the scene's
 // `seed` alone, so that the picture does not depend on threads, tiles or strips.
 //
 // Sources: direction numbers from Joe and Kuo, "Constructing Sobol sequences with
@@ -17,6 +17,13 @@
 namespace tilt_lens
 {
 
+/// The dimensions of area lights, before they are scrambled: every light scrambles them its own way.
+struct LightDimensions
+{
+	uint32_t point[2];
+	uint64_t seed;
+};
+
 /// One sample; every component lies in (0, 1).
 struct LensSample
 {
@@ -26,14 +33,15 @@ struct LensSample
 namespace sobol
 {
 
-const int Dimensions = 4;
+const int Dimensions = 6;
+const int OwnDimensions = 4;   ///< of lens and pixel; those of lights are worked out where there are such lights
 const int Bits = 32;
 
 /// Direction numbers, bit-reversed: bit k of a point is its (k+1)th binary digit,
 /// which is the order in which the scrambling hash carries.
 struct Directions
 {
-	uint32_t v[Bits][Dimensions];
+	uint32_t v[Bits][OwnDimensions], light[Bits][Dimensions - OwnDimensions];
 	Directions();
 };
 
@@ -55,11 +63,12 @@ inline uint64_t ReverseBits(uint64_t x)
 
 inline Directions::Directions()
 {
-	// Joe and Kuo's new-joe-kuo-6, dimensions 2 to 4: degree s, coefficients a,
+	// Joe and Kuo's new-joe-kuo-6, dimensions 2 to 6: degree s, coefficients a,
 	// initial m. Dimension 1 is the van der Corput sequence.
-	static const struct { int s; uint32_t a; uint32_t m[3]; } polynomial[Dimensions] =
+	static const struct { int s; uint32_t a; uint32_t m[4]; } polynomial[Dimensions] =
 	{
-		{ 0, 0, { 0, 0, 0 } }, { 1, 0, { 1, 0, 0 } }, { 2, 1, { 1, 3, 0 } }, { 3, 1, { 1, 3, 1 } }
+		{ 0, 0, { 0, 0, 0, 0 } }, { 1, 0, { 1, 0, 0, 0 } }, { 2, 1, { 1, 3, 0, 0 } }, { 3, 1, { 1, 3, 1, 0 } },
+		{ 3, 2, { 1, 1, 1, 0 } }, { 4, 1, { 1, 1, 3, 3 } }
 	};
 
 	for(int d = 0; d < Dimensions; d++)
@@ -82,7 +91,7 @@ inline Directions::Directions()
 			}
 		}
 		for(int i = 0; i < Bits; i++)
-			v[i][d] = ReverseBits(w[i]);
+			(d < OwnDimensions ? v[i][d] : light[i][d - OwnDimensions]) = ReverseBits(w[i]);
 	}
 }
 
@@ -102,6 +111,16 @@ inline uint32_t ScrambleReversed(uint32_t x, uint32_t seed)
 	x ^= x * 0x05526c56u;
 	x ^= x * 0x53a22864u;
 	return x;
+}
+
+/// Two dimensions of a point as numbers in (0, 1); two at a time, because one word holds both
+/// to be reversed.
+inline void ScrambledPair(uint32_t first_point, uint32_t first_seed, uint32_t second_point, uint32_t second_seed, double& first, double& second)
+{
+	const uint64_t pair = (uint64_t(ScrambleReversed(first_point, first_seed)) << 32) | ScrambleReversed(second_point, second_seed);
+	const uint64_t bits = ReverseBits(pair);
+	first = (double(uint32_t(bits)) + 0.5) * (1.0 / 4294967296.0);
+	second = (double(uint32_t(bits >> 32)) + 0.5) * (1.0 / 4294967296.0);
 }
 
 /// A well-mixed 64-bit hash (the finaliser of splitmix64).
@@ -135,7 +154,8 @@ class PixelSampler
 			const uint64_t b = sobol::Mix(a);
 			seed[0] = uint32_t(a); seed[1] = uint32_t(a >> 32);
 			seed[2] = uint32_t(b); seed[3] = uint32_t(b >> 32);
-			point[0] = point[1] = point[2] = point[3] = 0;
+			for(int d = 0; d < sobol::OwnDimensions; d++)
+				point[d] = 0;
 		}
 
 		/// The next sample; up to 2^32 - 1 of them.
@@ -147,25 +167,32 @@ class PixelSampler
 			Values(0, s.lens_u, s.lens_v);
 			Values(2, s.pixel_x, s.pixel_y);
 			const int bit = __builtin_ctz(++index);
-			for(int d = 0; d < sobol::Dimensions; d++)
+			for(int d = 0; d < sobol::OwnDimensions; d++)
 				point[d] ^= table->v[bit][d];
 			return s;
 		}
 
+		/// Of the sample that Next() gave last.
+		LightDimensions Light() const
+		{
+			LightDimensions light = { { 0, 0 }, sobol::Mix((uint64_t(seed[3]) << 32) | seed[2]) };
+			const uint32_t last = index - 1;
+			for(uint32_t gray = last ^ (last >> 1); gray != 0; gray &= gray - 1)
+				for(int d = 0; d < 2; d++)
+					light.point[d] ^= table->light[__builtin_ctz(gray)][d];
+			return light;
+		}
+
 	private:
-		/// Dimensions d and d + 1; two at a time, because one word holds both to be reversed.
 		void Values(int d, double& first, double& second) const
 		{
-			const uint64_t pair = (uint64_t(sobol::ScrambleReversed(point[d], seed[d])) << 32) | sobol::ScrambleReversed(point[d + 1], seed[d + 1]);
-			const uint64_t bits = sobol::ReverseBits(pair);
-			first = (double(uint32_t(bits)) + 0.5) * (1.0 / 4294967296.0);
-			second = (double(uint32_t(bits >> 32)) + 0.5) * (1.0 / 4294967296.0);
+			sobol::ScrambledPair(point[d], seed[d], point[d + 1], seed[d + 1], first, second);
 		}
 
 		const sobol::Directions *table;
 		uint32_t index;
-		uint32_t seed[sobol::Dimensions];
-		uint32_t point[sobol::Dimensions];
+		uint32_t seed[sobol::OwnDimensions];
+		uint32_t point[sobol::OwnDimensions];
 };
 
 }

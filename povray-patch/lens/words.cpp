@@ -53,6 +53,8 @@ const WordRow Words[WordCount] =
 	  "what a real lens does beside the ideal one's picture" },
 	{ Word::Denoise, "denoise", "", "", NULL, Range::Own, "–",
 	  "lets pixels learn from their neighbours" },
+	{ Word::AreaLightGrid, "area_light_grid", "", "", NULL, Range::Own, "–",
+	  "asks all points of an area light for every ray, as stock does" },
 	{ Word::Seed, "seed", "", "N", &LensSpec::seed, Range::Own, "–",
 	  "which of the equally good sets of samples to take" },
 	{ Word::ShowFocus, "show", "focus", "", NULL, Range::Own, "–",

@@ -37,6 +37,8 @@ struct CameraLens
 	uint32_t Seed() const { return uint32_t(int64_t(spec.seed.value)); }
 	/// Rays leave from many points of the lens (and cover the pixel's area), not from one.
 	bool Samples_Lens() const { return spec.enabled && !Shows() && !lens.IsPinhole(); }
+	/// A ray asks one point of an area light, not all.
+	bool Samples_Lights() const { return Samples_Lens() && !spec.area_light_grid; }
 	/// The picture is traced in a first pass and shown in a second.
 	bool Denoises() const { return denoised && Samples_Lens() && !pilot; }
 	/// A view of width x height pixels begins, of which left..right, top..bottom (inclusive) are rendered.

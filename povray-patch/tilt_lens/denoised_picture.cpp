@@ -31,6 +31,8 @@ void DenoisedPicture::Begin(int width, int height, int left, int top, int right,
 	part = p;
 	extended = e;
 	noisy.Resize(e.right - e.left + 1, e.bottom - e.top + 1);
+	noisy.left = e.left;
+	noisy.top = e.top;
 	missing = size_t(noisy.width) * noisy.height;
 	recorded.assign(missing, false);
 	bandDone.assign((noisy.height + BandHeight - 1) / BandHeight, false);

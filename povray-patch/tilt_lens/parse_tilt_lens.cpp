@@ -135,6 +135,9 @@ void Parser::Parse_Tilt_Lens_Word(Camera& New)
 		case Word::Denoise:
 			spec.denoise = true;
 			break;
+		case Word::AreaLightGrid:
+			spec.area_light_grid = true;
+			break;
 		case Word::ShowFocus:
 			Parse_Tilt_Lens_Show(spec);
 			break;

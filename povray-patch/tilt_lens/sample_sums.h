@@ -29,13 +29,20 @@ struct SampleSums
 	int stopped;
 	/// The most red, green or blue of a sample.
 	float brightest;
+	/// Under a bokeh pigment: of every colour's weights the sum and the sum of squares, and the sum of weight times
+	/// light. Means are divided by the weights that the samples have, not by what they have on
+	/// average: light that is the same all over the lens has no grain then.
+	bool painted;
+	double weights[3], square_weights[3], weighted[3];
 
 	/// Mean red, green and blue as they stood at the latest powers of two, latest first.
 	double earlier[ChangesKept + 1][3];
 	int earlier_counts[ChangesKept + 1];
 
-	SampleSums() : count(0), withheld(0.0), stopped(0), brightest(0.0f)
+	SampleSums() : count(0), withheld(0.0), stopped(0), brightest(0.0f), painted(false)
 	{
+		for(int i = 0; i < 3; i++)
+			weights[i] = square_weights[i] = weighted[i] = 0.0;
 		for(int i = 0; i < Channels; i++)
 			sum[i] = squares[i] = 0.0;
 		for(int j = 0; j <= ChangesKept; j++)
@@ -55,6 +62,25 @@ struct SampleSums
 			KeepMean();
 	}
 
+	/// The same for light that is multiplied by `paint` already: its red, green and blue are the weights.
+	void AddPainted(const Colour& c, const Colour& paint)
+	{
+		painted = true;
+		for(int i = 0; i < 3; i++)
+		{
+			weights[i] += paint[i];
+			square_weights[i] += double(paint[i]) * double(paint[i]);
+			weighted[i] += double(paint[i]) * double(c[i]);
+		}
+		Add(c);
+	}
+
+	/// Mean of red, green or blue. A colour that no sample's place on the lens lets through is black.
+	double Light(int i) const
+	{
+		return !painted ? sum[i] / count : weights[i] > 0.0 ? sum[i] / weights[i] : 0.0;
+	}
+
 	static double Square(double x) { return x * x; }
 
 	/// A picture file holds 0 to 1: what is beyond is not seen.
@@ -70,7 +96,7 @@ struct SampleSums
 		}
 		earlier_counts[0] = count;
 		for(int i = 0; i < 3; i++)
-			earlier[0][i] = sum[i] / count;
+			earlier[0][i] = Light(i);
 	}
 
 	/// The first part of the samples: as many as the last power of two below all of them.
@@ -84,7 +110,7 @@ struct SampleSums
 	{
 		const double arrived = count - withheld;
 		// No light arrived: black, and nothing behind it.
-		return Colour(sum[0] / count, sum[1] / count, sum[2] / count, arrived > 0.0 ? sum[3] / arrived : 0.0, arrived > 0.0 ? sum[4] / arrived : 0.0);
+		return Colour(Light(0), Light(1), Light(2), arrived > 0.0 ? sum[3] / arrived : 0.0, arrived > 0.0 ? sum[4] / arrived : 0.0);
 	}
 
 	/// The pixel's share in the estimate of the picture's error: squared changes over
@@ -142,6 +168,13 @@ struct SampleSums
 	static const int FewSamples = 16;
 	static constexpr double HiddenPart = 0.15;  // measured: 0.04 to 0.3 (tests/accuracy/estimate.sh)
 
+	/// Of a quotient of sums: how far light is from the mean, times its weight, which is 1 on average.
+	double PaintedVariance(int i) const
+	{
+		const double mean = Light(i);
+		return std::max(0.0, squares[i] - 2.0 * mean * weighted[i] + mean * mean * square_weights[i]) / (count - 1);
+	}
+
 	/// Largest variance of a sample over the channels.
 	double Variance() const
 	{
@@ -149,7 +182,7 @@ struct SampleSums
 		for(int i = 0; i < Channels; i++)
 		{
 			const double mean = sum[i] / count;
-			worst = std::max(worst, (squares[i] / count - mean * mean) * count / (count - 1));
+			worst = std::max(worst, painted && (i < 3) ? PaintedVariance(i) : (squares[i] / count - mean * mean) * count / (count - 1));
 		}
 		return worst;
 	}

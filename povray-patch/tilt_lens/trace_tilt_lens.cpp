@@ -26,6 +26,19 @@ namespace pov
 
 using tilt_lens::Vec3d;
 
+namespace
+{
+
+bool HasAreaLights(const vector<LightSource *>& lights)
+{
+	for(size_t i = 0; i < lights.size(); i++)
+		if(lights[i]->Area_Light)
+			return true;
+	return false;
+}
+
+}
+
 /// Chooses, once, how rays go through this camera's lens and what becomes of their light:
 /// what a scene does not name is not in the code that its rays run through.
 void TracePixel::SetupTiltLens()
@@ -38,6 +51,7 @@ void TracePixel::SetupTiltLens()
 	// False leaves the camera to stock's pinhole path.
 	useFocalBlur = camera_lens.Samples_Lens() || camera_lens.Shows() || lens.moves_pinhole_rays;
 	tiltLensWavelength = tilt_lens::GreenWavelength;
+	tiltLensLights = camera_lens.Samples_Lights() && (HasAreaLights(sceneData->lightSources) || HasAreaLights(sceneData->lightGroupLightSources)) ? &tiltLensLightSamples : NULL;
 	sendRayThroughTiltLens = lens.has_effects ? &TracePixel::SendRayThroughTiltLensWithEffects : &TracePixel::SendRayThroughTiltLens;
 	if(paints)
 		addTiltLensSample = lens.splits ? &TracePixel::AddTiltLensSample<true, true, true> : &TracePixel::AddTiltLensSample<true, true, false>;
@@ -192,12 +206,11 @@ bool TracePixel::SendRayThroughTiltLensWithEffects(Ray& ray)
 
 /// Traces the current lens sample in the current wavelength. Returns how much of its light
 /// arrives: `c`, transparency too, is multiplied by that. A ray of which nothing arrives is
-/// not traced.
+/// not traced. `paint` is what the bokeh pigment makes of its colours.
 template<bool Weighs, bool Paints>
-DBL TracePixel::TraceTiltLensRay(Ray& ray, tilt_lens::SampleSums& sums, Colour& c, DBL x, DBL y, DBL width, DBL height)
+DBL TracePixel::TraceTiltLensRay(Ray& ray, tilt_lens::SampleSums& sums, Colour& c, Colour *paint, DBL x, DBL y, DBL width, DBL height)
 {
 	DBL weight = 1.0;
-	Colour paint;
 
 	// remove interiors accumulated from previous sample (if any)
 	ray.ClearInteriors();
@@ -205,18 +218,21 @@ DBL TracePixel::TraceTiltLensRay(Ray& ray, tilt_lens::SampleSums& sums, Colour& 
 	{
 		// No ray, where the pixel looks along or behind the lens: empty, transparent.
 		c = Colour(0.0, 0.0, 0.0, 0.0, 1.0);
+		for(int i = 0; Paints && (i < 3); i++)
+			(*paint)[i] = 1.0;
 		sums.stopped++;
 		return 1.0;
 	}
 	c.clear();
 	if(Weighs)
 		weight = tiltLensWeight;
-	if(Paints && (weight > 0.0))
+	if(Paints)
 	{
-		paint = tilt_lens::BokehAt(camera.Bokeh, tiltLensPoint, threadData);
+		// Of rays that a rim stops too: their places belong to the opening.
+		*paint = tilt_lens::BokehAt(camera.Bokeh, tiltLensPoint, threadData);
 		for(int i = 0; i < 3; i++)
-			paint[i] *= camera.Tilt_Lens.bokeh_gain[i];
-		weight *= paint.greyscale();
+			(*paint)[i] *= camera.Tilt_Lens.bokeh_gain[i];
+		weight *= paint->greyscale();
 	}
 	if(Weighs && !(weight > 0.0))
 	{
@@ -227,7 +243,7 @@ DBL TracePixel::TraceTiltLensRay(Ray& ray, tilt_lens::SampleSums& sums, Colour& 
 	Trace::TraceTicket ticket(maxTraceLevel, adcBailout, sceneData->outputAlpha);
 	TraceRay(ray, c, 1.0, ticket, false, camera.Max_Ray_Distance);
 	if(Paints)
-		c = Colour(c[pRED] * paint[pRED] * tiltLensWeight, c[pGREEN] * paint[pGREEN] * tiltLensWeight, c[pBLUE] * paint[pBLUE] * tiltLensWeight,
+		c = Colour(c[pRED] * (*paint)[pRED] * tiltLensWeight, c[pGREEN] * (*paint)[pGREEN] * tiltLensWeight, c[pBLUE] * (*paint)[pBLUE] * tiltLensWeight,
 		           c[pFILTER] * weight, c[pTRANSM] * weight);
 	else if(Weighs)
 		c *= weight;
@@ -239,38 +255,52 @@ DBL TracePixel::TraceTiltLensRay(Ray& ray, tilt_lens::SampleSums& sums, Colour& 
 template<bool Weighs, bool Paints, bool Splits>
 void TracePixel::AddTiltLensSample(Ray& ray, tilt_lens::SampleSums& sums, DBL x, DBL y, DBL width, DBL height)
 {
-	Colour c;
+	Colour c, paint;
 	DBL weight = 0.0;
 
 	if(!Splits)
-		weight = TraceTiltLensRay<Weighs, Paints>(ray, sums, c, x, y, width, height);
+		weight = TraceTiltLensRay<Weighs, Paints>(ray, sums, c, Paints ? &paint : NULL, x, y, width, height);
 	else
 	{
 		c.clear();
 		for(tiltLensWavelength = 0; tiltLensWavelength < tilt_lens::Wavelengths; tiltLensWavelength++)
 		{
-			Colour one;
-			weight += TraceTiltLensRay<Weighs, Paints>(ray, sums, one, x, y, width, height) / tilt_lens::Wavelengths;
+			Colour one, its_paint;
+			// From the start: the wavelengths' colours are parts of one sample.
+			if(tiltLensLights != NULL)
+				tiltLensLightSamples.Begin();
+			weight += TraceTiltLensRay<Weighs, Paints>(ray, sums, one, Paints ? &its_paint : NULL, x, y, width, height) / tilt_lens::Wavelengths;
 			c[tiltLensWavelength] = one[tiltLensWavelength];
+			paint[tiltLensWavelength] = its_paint[tiltLensWavelength];
 			c[pFILTER] += one[pFILTER] / tilt_lens::Wavelengths;
 			c[pTRANSM] += one[pTRANSM] / tilt_lens::Wavelengths;
 		}
 	}
 	if(Weighs)
 		sums.withheld += 1.0 - weight;
-	sums.Add(c);
+	if(Paints)
+		sums.AddPainted(c, paint);
+	else
+		sums.Add(c);
 }
 
 /// Goes on with a pixel until it has `samples` samples.
 void TracePixel::SampleTiltLensPixel(tilt_lens::TilePixel& pixel, int samples, DBL width, DBL height)
 {
 	Ray ray;
+	const bool lights = (tiltLensLights != NULL);
 
 	if(pixel.sums.count < samples)
+	{
 		SeedRandomNumbersOfTiltLens(tilt_lens::RandomSeedOfPixel(pixel.x, pixel.y, camera.Tilt_Lens.Seed(), pixel.sums.count));
+		if(lights)
+			ForgetWhatShadowedAreaLights();
+	}
 	while(pixel.sums.count < samples)
 	{
 		tiltLensSample = pixel.sampler.Next();
+		if(lights)
+			tiltLensLightSamples.Draw(pixel.sampler.Light());
 		(this->*addTiltLensSample)(ray, pixel.sums, pixel.x + tiltLensSample.pixel_x - 0.5, pixel.y + tiltLensSample.pixel_y - 0.5, width, height);
 	}
 }

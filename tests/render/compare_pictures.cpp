@@ -11,6 +11,7 @@
 //   compare_pictures empty A             prints the shares of pixels, in percent, with alpha 0, which must be black,
 //                                        and with an alpha between 0 and 1
 //   compare_pictures all R,G,B X0,Y0,X1,Y1 A, none ...: every, no pixel of a region is of that colour, within 0.001
+//   compare_pictures flat LIMIT A        the pixels differ by no more than LIMIT in any channel
 //   compare_pictures series RATIO A B... the differences from picture to picture change smoothly: see below
 //
 // Every picture must be finite. Exit 0: as asked, 1: not, 2: wrong usage or an unreadable file.
@@ -107,6 +108,23 @@ bool Series(double ratio, const std::vector<Picture>& pictures)
 	return worst <= ratio && steps.size() > 2;
 }
 
+bool Flat(double limit, const Picture& a)
+{
+	double largest = 0;
+	for (std::size_t c = 0; c < 3; ++c)
+	{
+		double low = a.rgb[c], high = low;
+		for (std::size_t i = c; i < a.rgb.size(); i += 3)
+		{
+			low = std::min(low, a.rgb[i]);
+			high = std::max(high, a.rgb[i]);
+		}
+		largest = std::max(largest, high - low);
+	}
+	std::printf("pixels differ by up to %.6f (at most %.6f)\n", largest, limit);
+	return largest <= limit;
+}
+
 bool Alpha(double limit, const Picture& a, const Picture& b)
 {
 	double sum = 0;
@@ -132,7 +150,7 @@ bool Run(const std::string& how, std::vector<std::string> words)
 	if ((how == "all" || how == "none") && words.size() == 3)
 		return Colour(how == "all", Numbers(words[0], 3), Numbers(words[1], 4), ReadPicture(words[2]));
 	double limit = 0;
-	if (how == "rms" || how == "differ" || how == "series" || how == "alpha" || how == "channels")
+	if (how == "rms" || how == "differ" || how == "series" || how == "flat" || how == "alpha" || how == "channels")
 	{
 		limit = std::stod(words.at(0));
 		words.erase(words.begin());
@@ -150,6 +168,8 @@ bool Run(const std::string& how, std::vector<std::string> words)
 	const auto a = pictures.begin();
 	if (how == "empty" && pictures.size() == 1)
 		return Empty(*a);
+	if (how == "flat" && pictures.size() == 1)
+		return Flat(limit, *a);
 	if (pictures.size() < 2)
 		throw std::runtime_error("too few pictures");
 	if (how == "series")
@@ -183,7 +203,7 @@ int main(int argc, char** argv)
 try
 {
 	if (argc < 3)
-		throw std::runtime_error("usage: compare_pictures same|rms|differ|alpha|channels|sum|empty|all|none|series ...");
+		throw std::runtime_error("usage: compare_pictures same|rms|differ|alpha|channels|sum|empty|flat|all|none|series ...");
 	return Run(argv[1], {argv + 2, argv + argc}) ? 0 : 1;
 }
 catch (const std::exception& error)

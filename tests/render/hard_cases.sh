@@ -117,7 +117,7 @@ warnings)
 	}
 	idle='tilt_lens: without an aperture everything is sharp, and this does nothing:'
 	warned focus 'show focus' '' '' "$idle show focus."
-	warned smooth 'denoise' '' '' "$idle denoise."
+	warned smooth 'denoise area_light_grid' '' '' "$idle denoise, area_light_grid."
 	warned effects 'blades 5 field_curvature 0.1 chromatic axial 0.1, 0.1' 'bokeh { pigment { rgb 1 } }' '' "$idle field_curvature, blades, bokeh, chromatic axial."
 	warned glass 'aberrations { f_stop 4 spherical 1 coma 2 }' '' '' "$idle aberrations."
 	warned opening 'denoise blades 5 field_curvature 0.1 aperture_diameter 0.1' 'bokeh { pigment { rgb 1 } }' ''

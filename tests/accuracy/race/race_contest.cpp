@@ -106,6 +106,21 @@ public:
 				enough[{setting.opponent, setting.bokeh}] = setting.max;
 		}
 		contest.points[setting.opponent].push_back(point);
+		if (setting.opponent != Opponent::STOCK)
+			pictures[Label(setting)] = rendered.picture;
+	}
+
+	// Of the denoised pictures that ran without denoise too.
+	void CountWorseBlocks()
+	{
+		for (RacePoint& point : contest.points[Opponent::OURS])
+		{
+			Setting without = point.setting;
+			without.denoise = false;
+			const auto raw = pictures.find(Label(without)), denoised = pictures.find(Label(point.setting));
+			if (raw != pictures.end() && denoised != pictures.end() && point.setting.denoise)
+				point.worse_blocks = ShareOfWorseBlocks(denoised->second, raw->second, contest.truth);
+		}
 	}
 
 	void Again(const Setting& setting, int repeat)
@@ -146,6 +161,7 @@ private:
 	bool reuse;
 	const Picture* limit;
 	std::map<Opponent, double> per_sample;
+	std::map<std::string, Picture> pictures; // ours, by label
 	std::map<std::pair<Opponent, bool>, int> enough;
 };
 
@@ -301,6 +317,8 @@ Contest RunContest(const Renderer& renderer, const RaceScene& scene, bool tilted
 				say(fmt::format("pass {} of {}, run {} of {}", repeat + 1, settings.repeats, i + 1, order.size()));
 			repeat == 0 ? measurement.First(order[i]) : measurement.Again(order[i], repeat);
 		}
+		if (repeat == 0)
+			measurement.CountWorseBlocks();
 		std::reverse(order.begin(), order.end());
 	}
 	if (tilted)

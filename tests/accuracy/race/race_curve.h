@@ -14,6 +14,7 @@ struct RacePoint
 	double rms_shifted = 0, rms_limit = 0;
 	double rel_mse = 0; // the least over the same truths
 	double rss = 0;
+	double worse_blocks = -1; // denoised: the share of blocks that are worse than without; -1 where that did not run
 
 	double Time() const; // the least of the repeats: what disturbs a run makes it longer
 	double Spread() const; // longest over shortest, less 1

@@ -56,6 +56,27 @@ Offset FindOffset(const Picture& picture, const Picture& truth)
 	return {(yy * x - xy * y) / determinant, (xx * y - xy * x) / determinant};
 }
 
+double ShareOfWorseBlocks(const Picture& picture, const Picture& other, const Picture& truth)
+{
+	const int size = 8;
+	int worse = 0, blocks = 0;
+	for (int top = 0; top + size <= truth.height; top += size)
+		for (int left = 0; left + size <= truth.width; left += size)
+		{
+			double squares = 0, other_squares = 0;
+			for (int y = top; y < top + size; ++y)
+				for (int i = 3 * (y * truth.width + left); i < 3 * (y * truth.width + left + size); ++i)
+				{
+					const std::size_t k = std::size_t(i);
+					squares += std::pow(picture.rgb[k] - truth.rgb[k], 2);
+					other_squares += std::pow(other.rgb[k] - truth.rgb[k], 2);
+				}
+			worse += squares > 1.1 * 1.1 * other_squares;
+			++blocks;
+		}
+	return blocks > 0 ? double(worse) / blocks : 0;
+}
+
 double WithoutOwnError(double rms, double own_error)
 {
 	// Never to nothing: where the own error is nearly all, the difference of squares is noise.

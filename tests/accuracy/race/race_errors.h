@@ -18,6 +18,9 @@ struct Offset
 // Where the truth must be moved to so that the picture is nearest to it.
 Offset FindOffset(const Picture& picture, const Picture& truth);
 
+// The share of 8 x 8 blocks whose RMS error is more than 10 % above the other picture's.
+double ShareOfWorseBlocks(const Picture& picture, const Picture& other, const Picture& truth);
+
 // The RMS distance without what the truth's own error adds to it.
 double WithoutOwnError(double rms, double own_error);
 

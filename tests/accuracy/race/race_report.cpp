@@ -183,6 +183,29 @@ std::string Hulls(const Contest& contest)
 	return text + "</table></details>\n";
 }
 
+// What denoise made worse, which the RMS error of the whole picture does not say.
+std::string WorseBlocks(const Contest& contest)
+{
+	double sum = 0, most = 0;
+	int count = 0;
+	std::string where;
+	const auto found = contest.points.find(Opponent::OURS);
+	for (const RacePoint& point : found == contest.points.end() ? std::vector<RacePoint>() : found->second)
+	{
+		if (point.worse_blocks < 0)
+			continue;
+		sum += point.worse_blocks;
+		++count;
+		if (where.empty() || point.worse_blocks > most)
+		{
+			most = point.worse_blocks;
+			where = Label(point.setting);
+		}
+	}
+	return count == 0 ? "" : fmt::format("<p>Denoised, {:.1f}&thinsp;% of the 8 x 8 blocks are more than 10&thinsp;% worse than without (mean of {} settings; "
+		"at most {:.1f}&thinsp;%, at {}).</p>\n", 100 * sum / count, count, 100 * most, where);
+}
+
 std::string Section(const Contest& contest, const RaceReport& report, const fs::path& work)
 {
 	std::string text = fmt::format("<div class=\"scene\" id=\"{}\"><div class=\"text\"><h3>{}</h3>\n{}\n<p>{}.</p>\n", contest.Name(),
@@ -198,7 +221,7 @@ std::string Section(const Contest& contest, const RaceReport& report, const fs::
 		text += fmt::format(", {:.1f} ms a pinhole frame.", 1000 * contest.start_up.at(Opponent::PINHOLES));
 	else
 		text += fmt::format(", {:.0f} ms stock.", 1000 * contest.start_up.at(Opponent::STOCK));
-	text += "</small></p>\n" + Hulls(contest) + "</div>\n<div>" + PlotOf(contest, false, work) + Ratios(contest, report.settings);
+	text += "</small></p>\n" + WorseBlocks(contest) + Hulls(contest) + "</div>\n<div>" + PlotOf(contest, false, work) + Ratios(contest, report.settings);
 	return text + "<details><summary>relMSE</summary>" + PlotOf(contest, true, work) + "</details></div></div>\n";
 }
 

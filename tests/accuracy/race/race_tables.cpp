@@ -34,7 +34,7 @@ static std::ofstream Open(const fs::path& path, const char* head)
 void WriteTables(const RaceReport& report, const fs::path& out)
 {
 	std::ofstream points = Open(out / "points.csv",
-		"contest,opponent,setting,cpu_s,spread,rms,rms_truth,rms_shifted,rms_limit,rel_mse,max_rss_mib");
+		"contest,opponent,setting,cpu_s,spread,rms,rms_truth,rms_shifted,rms_limit,rel_mse,max_rss_mib,worse_blocks");
 	std::ofstream ratios = Open(out / "ratios.csv", "contest,opponent,measure,error,raw_ratio,raw_sign,best_ratio,best_sign");
 	std::ofstream truths = Open(out / "truths.csv",
 		"contest,samples,own_error,pinholes,pinhole_distance,pinhole_error,stock_limit_distance,stock_limit_error,stock_dx,stock_dy");
@@ -42,9 +42,10 @@ void WriteTables(const RaceReport& report, const fs::path& out)
 	{
 		for (const auto& [opponent, list] : contest.points)
 			for (const RacePoint& point : list)
-				points << fmt::format("{},{},\"{}\",{:.4f},{:.4f},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.1f}\n", contest.Name(),
+				points << fmt::format("{},{},\"{}\",{:.4f},{:.4f},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.1f},{}\n", contest.Name(),
 					Name(opponent), Label(point.setting), point.Time(), point.Spread(), point.Rms(), point.rms_truth,
-					point.rms_shifted, point.rms_limit, point.rel_mse, point.rss);
+					point.rms_shifted, point.rms_limit, point.rel_mse, point.rss,
+					point.worse_blocks < 0 ? "" : fmt::format("{:.4f}", point.worse_blocks));
 		for (Opponent opponent : {contest.Rival(), Opponent::RAW, Opponent::FIXED})
 		{
 			for (double error : report.settings.errors)

@@ -73,3 +73,17 @@ TEST(RaceRatios, MeansAreOfASide)
 	EXPECT_NEAR(GeometricMean(report, Opponent::STOCK, Side::RAW), std::sqrt(3.0 * 1.0), 1e-9);
 	EXPECT_NE(WhereWeLose(report, Side::RAW), WhereWeLose(report, Side::BEST));
 }
+
+// Two blocks of 8 x 8: 1.2 times the other picture's error in one, 1.05 times in the other.
+TEST(Race, BlocksThatAreMoreThanATenthWorseAreCounted)
+{
+	const Picture truth{16, 8, std::vector<double>(16 * 8 * 3, 0.5), {}};
+	Picture other = truth, picture = truth;
+	for (std::size_t i = 0; i < truth.rgb.size(); ++i)
+	{
+		other.rgb[i] += 0.01;
+		picture.rgb[i] += i / 3 % 16 < 8 ? 0.012 : 0.0105;
+	}
+	EXPECT_EQ(ShareOfWorseBlocks(picture, other, truth), 0.5);
+	EXPECT_EQ(ShareOfWorseBlocks(truth, truth, truth), 0);
+}
