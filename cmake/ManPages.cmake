@@ -2,7 +2,7 @@
 
 set(man_folder "${CMAKE_BINARY_DIR}/share/man/man1")
 file(MAKE_DIRECTORY "${man_folder}")
-set(TILTCAL_SUBCOMMANDS target detect calibrate pose profile lens export import)
+set(TILTCAL_SUBCOMMANDS target detect calibrate pose profile lens export import undistort project unproject)
 
 # add_man_page(PROGRAM FRAME [SUBCOMMAND...]): FRAME becomes PROGRAM.1.
 function(add_man_page program frame)

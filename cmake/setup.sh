@@ -13,7 +13,7 @@ packages="
 	libspdlog-dev libfmt-dev libgtest-dev libgmock-dev libbenchmark-dev libpugixml-dev
 	pkg-config libcairo2-dev fonts-dejavu-core poppler-utils
 	gnuplot-nox povray povray-includes slurm-wlm munge procps
-	dpkg-dev file man-db python3-jsonschema locales"
+	dpkg-dev file man-db python3-jsonschema python3-openimageio python3-numpy locales"
 # Wanted, but nothing fails without them (debootstrap: the workflow `package` tests in a clean root).
 optional="ccache debootstrap"
 

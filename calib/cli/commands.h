@@ -22,6 +22,9 @@ void AddProfile(CLI::App& app);
 void AddLens(CLI::App& app);
 void AddExport(CLI::App& app);
 void AddImport(CLI::App& app);
+void AddUndistort(CLI::App& app);
+void AddProject(CLI::App& app);
+void AddUnproject(CLI::App& app);
 
 }
 

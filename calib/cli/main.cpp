@@ -29,6 +29,9 @@ int main(int argc, char** argv)
 		tiltcal::AddLens(app);
 		tiltcal::AddExport(app);
 		tiltcal::AddImport(app);
+		tiltcal::AddUndistort(app);
+		tiltcal::AddProject(app);
+		tiltcal::AddUnproject(app);
 		try
 		{
 			app.parse(argc, argv);

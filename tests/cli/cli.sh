@@ -59,12 +59,12 @@ version) expect 0 --version; grep -Eq '^tiltcal [0-9]+\.[0-9]+\.[0-9]+$' out || 
 no_command) refuses 2 subcommand ;;
 unknown_option) calibrate 2 frobnicate "$target/untilted-1.jpg" --frobnicate ;;
 help_of_each)
-	for command in target detect calibrate pose profile lens export import; do
+	for command in target detect calibrate pose profile lens export import undistort project unproject; do
 		expect 0 $command --help; prints Example; prints "Exit codes"
 	done
 	expect 0 --help
 	listed=$(sed -n '/^Subcommands:/,/^$/s/^  \([a-z]*\) .*/\1/p' out | tr '\n' ' ')
-	[ "$listed" = "target detect calibrate pose profile lens export import " ] || fail "subcommands: $listed" ;;
+	[ "$listed" = "target detect calibrate pose profile lens export import undistort project unproject " ] || fail "subcommands: $listed" ;;
 missing_file) calibrate 3 nowhere.jpg "$target/nowhere.jpg" ;;
 empty_glob) calibrate 3 "no file matches" "$target/*.webp" ;;
 empty_file) : >zero.png; calibrate 3 "zero.png.*empty" zero.png ;;

@@ -87,6 +87,8 @@ listed() {
 points() {
 	build/release/bin/tiltcal detect --board 12x9 scenes/boxes/photos/target/plus5-1.jpg --csv corners.csv > log.txt 2>&1 || return
 	awk -F, 'NR == 1 { print "u_px,v_px,x,y,z" } NR > 1 { printf "%s,%s,%d,%d,0\n", $4, $5, 25 * $2, -25 * $3 }' corners.csv > points.csv
+	awk -F, 'NR == 1 { print "u_px,v_px" } NR > 1 { print $4 "," $5 }' corners.csv > pixels.csv
+	awk -F, 'NR == 1 { print "x,y,z" } NR > 1 { printf "%d,%d,600\n", 25 * $2, -25 * $3 }' corners.csv > places.csv
 }
 
 run() {

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "exchange/flat_view.h"
+
+#include <tiltcal/error.h>
+#include "base/numbers.h"
+
+#include <fmt/format.h>
+#include <opencv2/core/utility.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace tiltcal
+{
+
+namespace
+{
+
+/// Of what Project and Unproject give back, px: rounding is some 1e-9.
+const double ROUND_TRIP_PX = 1e-3;
+
+/// Where `from` sees what `to` sees at a pixel. Brown's polynomial turns back beyond its largest angle, and would show there what is
+/// inside: what does not come back is nowhere.
+cv::Vec2f PlaceOf(const StateCamera& to, const StateCamera& from, const Point& pixel)
+{
+	const float nan = std::numeric_limits<float>::quiet_NaN();
+	const std::optional<Point> place = Project(from, Unproject(to, pixel));
+	if (!place)
+		return { nan, nan };
+	const std::optional<Point> back = Project(to, Unproject(from, *place));
+	if (!back || !(std::hypot((*back)[0] - pixel[0], (*back)[1] - pixel[1]) < ROUND_TRIP_PX))
+		return { nan, nan };
+	return { float((*place)[0]), float((*place)[1]) };
+}
+
+/// Every pixel of the picture's rim.
+template<typename Visit>
+void ForRim(const StateCamera& c, Visit visit)
+{
+	for (int x = 0; x < c.width; ++x)
+		for (const int y : { 0, c.height - 1 })
+			visit(Point{ double(x), double(y) });
+	for (int y = 0; y < c.height; ++y)
+		for (const int x : { 0, c.width - 1 })
+			visit(Point{ double(x), double(y) });
+}
+
+}
+
+StateCamera FlatView(const StateCamera& camera, const Margins& margins)
+{
+	StateCamera flat = camera;
+	flat.distortion = {};
+	flat.width += 2 * margins.x;
+	flat.height += 2 * margins.y;
+	flat.principal_point = { camera.principal_point[0] + margins.x, camera.principal_point[1] + margins.y };
+	return flat;
+}
+
+Margins MarginsOfAll(const StateCamera& camera)
+{
+	const StateCamera flat = FlatView(camera, {});
+	double beyond_x = 0, beyond_y = 0;
+	ForRim(camera, [&](const Point& pixel)
+	{
+		const cv::Vec2f place = PlaceOf(camera, flat, pixel);
+		const double x = std::max<double>(-place[0], place[0] - (camera.width - 1)), y = std::max<double>(-place[1], place[1] - (camera.height - 1));
+		if (!(x < camera.width && y < camera.height))
+			throw Refused(fmt::format("state {}: the distortion cannot be undone at the picture's edge, pixel ({:.0f}, {:.0f}); give --overscan in percent",
+				camera.state, pixel[0], pixel[1]));
+		beyond_x = std::max(beyond_x, x);
+		beyond_y = std::max(beyond_y, y);
+	});
+	return { int(std::ceil(beyond_x)), int(std::ceil(beyond_y)) };
+}
+
+Margins ParseOverscan(const std::string& text, const StateCamera& camera)
+{
+	if (text == "auto")
+		return MarginsOfAll(camera);
+	const std::optional<double> percent = FiniteNumber(text);
+	if (!percent || *percent < 0 || *percent > 100)
+		throw UsageError(fmt::format("--overscan {}: give percent of the picture on each side, 0 to 100, or auto", text));
+	return { int(std::ceil(*percent / 100 * camera.width)), int(std::ceil(*percent / 100 * camera.height)) };
+}
+
+double SharePictured(const StateCamera& camera, const Margins& margins)
+{
+	const StateCamera flat = FlatView(camera, margins);
+	const cv::Mat map = PixelMap(camera, flat);
+	long shown = 0;
+	for (int y = 0; y < map.rows; ++y)
+		for (int x = 0; x < map.cols; ++x)
+		{
+			const cv::Vec2f place = map.at<cv::Vec2f>(y, x);
+			shown += place[0] >= -0.5f && place[0] <= float(flat.width) - 0.5f && place[1] >= -0.5f && place[1] <= float(flat.height) - 0.5f;
+		}
+	return double(shown) / (double(camera.width) * camera.height);
+}
+
+cv::Mat PixelMap(const StateCamera& to, const StateCamera& from)
+{
+	cv::Mat map(to.height, to.width, CV_32FC2);
+	cv::parallel_for_({ 0, to.height }, [&](const cv::Range& rows)
+	{
+		for (int y = rows.start; y < rows.end; ++y)
+			for (int x = 0; x < to.width; ++x)
+				map.at<cv::Vec2f>(y, x) = PlaceOf(to, from, { double(x), double(y) });
+	});
+	return map;
+}
+
+}

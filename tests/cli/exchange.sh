@@ -1,0 +1,91 @@
+#!/bin/sh
+# usage: exchange.sh CASE TILTCAL PHOTOS WORK PYTHON
+# A calibrated camera for other programs (tiltcal export, undistort, project, unproject): as files.sh runs a case.
+set -u
+case=$1 tiltcal=$2 photos=$3 work=$4 python=$5
+here=$(cd "$(dirname "$0")" && pwd)
+rm -rf "$work" && mkdir -p "$work" && cd "$work" || exit 99
+
+fail() { echo "FAIL: $*"; echo "--- stdout"; cat out; echo "--- stderr"; cat err; exit 1; }
+expect() { want=$1; shift; "$tiltcal" "$@" >out 2>err; got=$?; [ "$got" = "$want" ] || fail "exit code $got, expected $want: tiltcal $*"; }
+prints() { grep -q -e "$1" out || fail "stdout does not say '$1'"; }
+refuses() { want=$1 text=$2; shift 2; expect "$want" "$@"; grep -q -e "$text" err || fail "stderr does not say '$text'"; [ "$(wc -l <err)" = 1 ] || fail "not one line"; }
+nothing_left() { left=$(find . -name '.tiltcal*'); [ -z "$left" ] || fail "temporary files left: $left"; }
+
+printf '%s\n' '%YAML:1.0' --- 'image_width: 1800' 'image_height: 1200' 'camera_matrix: !!opencv-matrix' '   rows: 3' '   cols: 3' '   dt: d' \
+	'   data: [ 2400., 0., 900., 0., 2400., 600., 0., 0., 1. ]' 'distortion_coefficients: !!opencv-matrix' '   rows: 5' '   cols: 1' '   dt: d' \
+	'   data: [ -0.125, 0.02, 0.001, 0., 0. ]' >camera.yml
+expect 0 import camera.yml --pitch 0.02 --out imported.json
+"$python" "$here/exchange.py" camera imported.json camera.json >out 2>err || fail "no camera"
+c="--calibration camera.json"
+
+case $case in
+colmap | renderman | arnold | blender)
+	expect 0 export $c --$case camera.txt --unit-mm 10; prints "camera.txt: not in it: "
+	"$python" "$here/exchange.py" $case camera.json camera.txt >out 2>err
+	got=$?
+	cat out
+	[ $got = 77 ] && exit 77
+	[ $got = 0 ] || fail "the file" ;;
+maps)
+	expect 0 export $c --stmap maps/c --rays maps/rays.exr; prints "undistorted 1800 x 1200, which shows 9[0-9.]* % of the photograph"
+	for file in c-undistort c-redistort rays; do [ "$(head -c 4 maps/$file.exr | od -An -tx1)" = " 76 2f 31 01" ] || fail "$file.exr is no OpenEXR"; done
+	expect 0 export $c --stmap maps/d --overscan auto; prints "which shows 100.0 %"
+	expect 0 export $c --stmap maps/e --overscan 5; prints "undistorted 1980 x 1320"
+	cp maps/c-undistort.exr before
+	(ulimit -f 100; trap '' XFSZ; "$tiltcal" export $c --stmap maps/c >out 2>err); [ $? = 3 ] || fail "a full disk"
+	cmp -s before maps/c-undistort.exr || fail "half a map"
+	nothing_left ;;
+warp)
+	# A photograph in linear light, as an EXR: through a camera that changes nothing.
+	sed 's/-0.125/0/; s/0.02,/0,/; s/0.001/0/' camera.yml >plain.yml
+	expect 0 import plain.yml --pitch 0.02 --out plain.json
+	expect 0 undistort "$photos/scene/plus5.jpg" --calibration plain.json --out linear --format exr
+	expect 0 undistort linear/plus5.exr $c --out flat --format exr
+	expect 0 export $c --stmap c
+	"$python" "$here/exchange.py" warp c-undistort.exr linear/plus5.exr flat/plus5.exr >out 2>err
+	got=$?
+	cat out
+	[ $got = 77 ] && exit 77
+	[ $got = 0 ] || fail "another picture" ;;
+usage)
+	refuses 2 "nothing to write.*--stmap" export $c
+	for bad in -1 101 wide 5,5; do refuses 2 "--overscan $bad: give percent" export $c --stmap x --overscan=$bad; done
+	for bad in 0 -1 inf; do refuses 2 "--unit-mm" export $c --blender x.py --unit-mm=$bad; done
+	refuses 2 "state plus9" export $c --state plus9 --rays x.exr
+	: >blocked; refuses 3 blocked export $c --rays blocked/x.exr
+	[ -z "$(ls x* 2>/dev/null)" ] || fail "written: $(ls)" ;;
+points)
+	printf 'u_px,v_px\n0,0\n900.5,600.25\n1799,1199\n' >pixels.csv
+	expect 0 unproject pixels.csv $c; cp out rays.csv
+	# 700 mm along every ray, and back.
+	(echo x,y,z; awk -F, 'NR > 1 { printf "%.15g,%.15g,%.15g\n", 700 * $3, 700 * $4, 700 * $5 }' rays.csv) >points.csv
+	expect 0 project points.csv $c --out new/seen.csv
+	awk -F, 'NR > 1 { print $4 "," $5 }' new/seen.csv >back
+	awk -F, 'NR > 1' pixels.csv | paste -d, - back | awk -F, '{ x = $1 - $3; y = $2 - $4; if (x * x + y * y > 1e-14) { print; exit 1 } }' >bad || fail "not the same pixels: $(cat bad)"
+	"$tiltcal" project - $c <points.csv >out 2>err || fail "standard input"
+	cmp -s out new/seen.csv || fail "standard input gives other pixels"
+	refuses 3 "pixels.csv:1: 'u_px,v_px' is not the header x,y,z" project pixels.csv $c
+	sed '3s/,.*//' points.csv >cut.csv; refuses 3 "cut.csv:3: .*not 3 numbers x,y,z" project cut.csv $c
+	refuses 3 nowhere.csv unproject nowhere.csv $c ;;
+undistort)
+	mkdir photos; cp "$photos/scene/untilted.jpg" photos/a.jpg; cp "$photos/scene/plus5.jpg" photos/b.jpg; echo text >photos/notes.txt
+	expect 0 undistort photos $c --out flat --overscan auto; prints "100.0 % of the photograph"
+	grep -q "2 of 2: flat/b.png" err || fail "no progress"
+	[ "$(ls flat | tr '\n' ' ')" = "a.png b.png " ] || fail "written: $(ls flat)"
+	expect 0 undistort flat/a.png $c --out back --overscan auto --redistort --format exr
+	expect 0 undistort photos/a.jpg $c --out exr --format exr
+	# There and back again it is the photograph, but for what two interpolations smooth; without the way back corners lie 80 px off.
+	expect 0 undistort photos/a.jpg $c --out same
+	error() { expect 0 profile photos/a.jpg "$1" --line 0,60,1799,60 --out compared --json error.json; "$python" -c 'import json; print(json.load(open("error.json"))["lines"][0]["mean_abs_error"])'; }
+	error back/a.exr >there_and_back; error same/a.png >there
+	paste there_and_back there | awk '{ print; good = NF == 2 && $1 < 0.25 * $2 } END { exit !good }' || fail "not undone"
+	refuses 1 "a.jpg is 1800 x 1200 pixels; the undistorted picture has 1980 x 1320" undistort photos/a.jpg $c --out x --overscan 5 --redistort
+	refuses 2 "would be replaced by its own result" undistort flat/a.png $c --out flat
+	mkdir other; cp photos/a.jpg other/; refuses 2 "two pictures would become" undistort photos/a.jpg other/a.jpg $c --out x
+	refuses 2 "--format jpg" undistort photos/a.jpg $c --out x --format jpg
+	mkdir empty; : >empty/notes.txt; refuses 3 "empty: holds no pictures" undistort empty $c --out x
+	refuses 3 "no file matches" undistort 'nowhere*.jpg' $c --out x
+	nothing_left ;;
+*) echo "unknown case $case"; exit 99 ;;
+esac
