@@ -120,4 +120,30 @@ double BlurWidth(const StateCamera& c, const Vec3<double>& P)
 	return c.ImageDistancePx() * c.aperture_diameter_mm * std::abs(1 - kappa_z) / P.z;
 }
 
+std::optional<std::vector<Point>> Footprint(const StateCamera& c, const Vec3<double>& P, size_t count)
+{
+	const Vec3<double> n = c.LensNormal(), q = c.PlaneOfFocus();
+	const tilt_lens::LensBasis<double> basis = tilt_lens::BasisOfLensPlane(n);
+	std::vector<Point> outline;
+	for (size_t i = 0; i < count; ++i)
+	{
+		const double angle = 2 * tilt_lens::Pi * double(i) / double(count), radius = 0.5 * c.aperture_diameter_mm;
+		const Vec3<double> S = radius * std::cos(angle) * basis.a + radius * std::sin(angle) * basis.b;
+		// The ray S + t (v - kappa(v) S) meets P: with V = t v, V = P - (1 - kappa(V)) S. Every step leaves d |q| / 2 of the error, some 1e-2.
+		Vec3<double> V = P;
+		for (int step = 0; step < 100; ++step)
+		{
+			const Vec3<double> last = V;
+			V = P - (1 - tilt_lens::InverseFocusDistanceOnBowl(q, c.field_curvature_per_mm, n, V)) * S;
+			if (Dot(V - last, V - last) <= 1e-30 * Dot(P, P))
+				break;
+		}
+		const std::optional<Point> pixel = Project(c, V);
+		if (!pixel)
+			return std::nullopt;
+		outline.push_back(*pixel);
+	}
+	return outline;
+}
+
 }

@@ -309,4 +309,36 @@ TEST_F(Exchange, PicturesComeBackFromTheirFiles)
 	EXPECT_EQ(cv::norm(ReadLinear(At("a.exr"), gamma), picture, cv::NORM_INF), 0);
 }
 
+TEST_F(Exchange, FootprintsAreWhatTheLensPointsSee)
+{
+	const StateCamera c = Camera();
+	const Vec3<double> n = c.LensNormal(), q = c.PlaneOfFocus();
+	for (const Vec3<double> P : { Vec3<double>{ 0, 0, 400 }, Vec3<double>{ 200, -150, 900 }, Vec3<double>{ -90, 60, 3000 } })
+	{
+		const std::vector<Point> outline = *Footprint(c, P, 8);
+		ASSERT_EQ(outline.size(), 8u);
+		for (const Point& pixel : outline)
+		{
+			// MODEL.md: from S on the rim, the pixel's ray has the direction v - kappa(v) S, and P lies on it. S is where the line through P
+			// meets the rim: S = (P - t v) / (1 - t kappa), in the lens plane and 8 mm from its centre.
+			const Vec3<double> v = Unproject(c, pixel);
+			const double kappa = Dot(q, v) + c.field_curvature_per_mm * Dot(v, n) * Dot((1 / Dot(v, n)) * v - n, (1 / Dot(v, n)) * v - n);
+			const double t = Dot(P, n) / Dot(v, n);   // S.n = 0
+			const Vec3<double> S = (1 / (1 - t * kappa)) * (P - t * v);
+			// Unproject's 1e-9 of some thousand pixels, times w / pixel.
+			EXPECT_NEAR(std::sqrt(Dot(S, S)), 8, 1e-6);
+		}
+	}
+	// Untilted, flat and without distortion it is the paper's circle, (2).
+	StateCamera plain = Camera(0);
+	plain.distortion = {};
+	plain.field_curvature_per_mm = 0;
+	const Vec3<double> P{ 50, 20, 1200 };
+	const Point centre = *Project(plain, P);
+	const std::vector<Point> circle = *Footprint(plain, P, 5);
+	for (const Point& pixel : circle)
+		EXPECT_NEAR(std::hypot(pixel[0] - centre[0], pixel[1] - centre[1]), 0.5 * plain.ImageDistancePx() * 16 * std::abs(1 / 1200.0 - 1 / 650.0), 1e-9);
+	EXPECT_FALSE(Footprint(plain, { 0, 0, -5 }));
+}
+
 }

@@ -21,7 +21,7 @@ sed -n 's/^\(run\|test\|not\) | \(.*\) |[ ]*\(.*\)$/\1\t\2\t\3/p' "$here/documen
 # is_command WORD: whether a line that begins with WORD is a command and not a piece of a scene, a table or the map.
 is_command() {
 	case $1 in
-		build/* | povray-patch/*.sh | tiltcal | tiltcost | povray-tilt | cd | [A-Z]=*) return 0 ;;
+		build/* | povray-patch/*.sh | tiltcal | tiltcost | povray-tilt | cd | [A-Z]=* | PYTHONPATH=*) return 0 ;;
 		apt* | chromium | ffmpeg | git | sudo | cmake | ctest | ninja | make | python3) return 0 ;;
 		-* | *[!a-zA-Z0-9_.+-]*) return 1 ;;
 	esac

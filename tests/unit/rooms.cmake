@@ -10,10 +10,10 @@ string(REPLACE "," ";" library_rooms "${LIBRARY_ROOMS}")
 set(faults "")
 set(seen 0)
 
-# Every folder of calib is a room of the list, or has the man pages or the public headers.
+# Every folder of calib is a room of the list, or has the man pages, the public headers or the Python module.
 file(GLOB folders RELATIVE "${ROOT}/calib" "${ROOT}/calib/*/")
 foreach(folder IN LISTS folders)
-	if(IS_DIRECTORY "${ROOT}/calib/${folder}" AND NOT folder IN_LIST rooms AND NOT folder MATCHES "^(include|man)$")
+	if(IS_DIRECTORY "${ROOT}/calib/${folder}" AND NOT folder IN_LIST rooms AND NOT folder MATCHES "^(include|man|python)$")
 		string(APPEND faults "calib/${folder}: is no room of calib/CMakeLists.txt\n")
 	endif()
 endforeach()
@@ -54,6 +54,7 @@ check_folder(povray-patch/lens "lens")
 check_folder(povray-patch/tilt_lens "lens;backend;base")   # the last two are POV-Ray's
 check_folder(povray-patch/tiltcost "lens;tiltcal;base;program;tiltcost")
 check_folder(calib/include/tiltcal "tiltcal;lens")
+check_folder(calib/python "tiltcal")
 set(allowed "lens;tiltcal")
 foreach(room IN LISTS rooms)
 	list(APPEND allowed "${room}")

@@ -94,6 +94,11 @@ TILTCAL_API Vec3<double> Unproject(const StateCamera& camera, const Point& pixel
 /// through their corners. z > 0.
 TILTCAL_API double BlurWidth(const StateCamera& camera, const Vec3<double>& P);
 
+/// The outline of the blur disc of a point P on the sensor, px: the pixels that see P through `count` lens points on the rim of the
+/// circular opening, in equal steps of angle from the lens's own x axis towards its y axis. Exact for a thin lens, on the bowl where there is
+/// one, with the distortion. z > 0; none where P is not in front of the lens.
+TILTCAL_API std::optional<std::vector<Point>> Footprint(const StateCamera& camera, const Vec3<double>& P, size_t count = 64);
+
 /// Where a camera stands in a scene: scene units, unit vectors at right angles, left-handed.
 struct Place
 {
