@@ -6,8 +6,8 @@ cmake_minimum_required(VERSION 3.25)
 file(REMOVE_RECURSE "${WORK}")
 set(prefix "${WORK}/prefix")
 execute_process(COMMAND "${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${prefix}" OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
-file(WRITE "${WORK}/scene.pov" "#version 3.7;\n#include \"colors.inc\"\nglobal_settings { assumed_gamma 1 }\n"
-	"camera { tilt_lens location -5*z look_at 0 }\nsphere { 0, 1 pigment { Red } finish { ambient 1 } }\n")
+file(WRITE "${WORK}/scene.pov" "#version 3.7;\n#include \"colors.inc\"\n#include \"tilt_lens.inc\"\nglobal_settings { assumed_gamma 1 }\n"
+	"camera { tilt_lens { TL_Focus_Pull(5, 9, 0) } location -5*z look_at 0 }\nsphere { 0, 1 pigment { Red } finish { ambient 1 } }\n")
 execute_process(COMMAND "${prefix}/bin/povray" +Iscene.pov +Oscene.png +W40 +H30 -D
 	WORKING_DIRECTORY "${WORK}" OUTPUT_FILE "${WORK}/log" ERROR_FILE "${WORK}/log" RESULT_VARIABLE failed)
 if(failed OR NOT EXISTS "${WORK}/scene.png")
