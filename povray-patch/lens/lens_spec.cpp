@@ -364,6 +364,19 @@ void Resolve(const LensSpec& spec, const CameraVectors& camera, TiltLens& lens)
 
 }
 
+void LensSpec::Take_Words_Around(const LensSpec& before)
+{
+	const bool states_distance = focal_plane_point || focal_points[0] || focal_distance || (lens_tilt && focal_length && image_distance);
+
+	angle_given = before.angle_given;
+	right_given = before.right_given;
+	look_at = before.look_at;
+	if(!states_distance)
+		focal_point = before.focal_point;
+	if(!aperture_diameter && !f_stop)
+		aperture = before.aperture;
+}
+
 double TiltLens::Kappa(const Vec3d& v) const
 {
 	return Curves() ? InverseFocusDistanceOnBowl(inverse_focus, field_curvature, normal, v)

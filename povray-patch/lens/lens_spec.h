@@ -94,6 +94,10 @@ struct LensSpec
 	Given<Vec3d> look_at;
 	double aperture = 0.0;              ///< POV-Ray's word: a lens of diameter A/2
 
+	/// The words outside the block are those of the camera whose lens was `before` and is this one now. What
+	/// the block says is later: words that it contradicts are dropped.
+	void Take_Words_Around(const LensSpec& before);
+
 	/// The window right x up is the sensor itself, at the image distance; otherwise it
 	/// only says the field of view.
 	bool Sensor_Is_Window() const { return (image_distance.given || focal_length.given) && !angle_given; }

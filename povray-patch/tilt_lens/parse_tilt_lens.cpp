@@ -65,6 +65,22 @@ void Parser::Parse_Tilt_Lens(Camera& New)
 	Parse_End();
 }
 
+/// camera { DECLARED tilt_lens [ { WORDS } ] TRANSFORMATIONS }: another lens in the place of the declared camera's.
+void Parser::Parse_Tilt_Lens_Anew(Camera& New)
+{
+	const LensSpec before = New.Tilt_Lens.spec;
+
+	if (!before.enabled)
+		Error("The declared camera is no tilt_lens camera, and has no lens that tilt_lens could replace.\n"
+		      "Begin its declaration with tilt_lens, even without words.");
+	// What follows from the words is made when the camera ends.
+	if (!New.Tilt_Lens.borders)
+		Error("A camera has only one tilt_lens block.");
+	New.Tilt_Lens = tilt_lens::CameraLens();
+	Parse_Tilt_Lens(New);
+	New.Tilt_Lens.spec.Take_Words_Around(before);
+}
+
 /// One word of the block, which is the current token, and its value.
 void Parser::Parse_Tilt_Lens_Word(Camera& New)
 {
