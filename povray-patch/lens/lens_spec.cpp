@@ -82,6 +82,8 @@ void CheckRanges(const LensSpec& spec)
 		Refuse("tilt_lens: focal_distance must not be 0: the plane of focus would pass through the lens centre.");
 	if(spec.seed && !((spec.seed.value >= 0.0) && (spec.seed.value <= 4294967295.0) && (spec.seed.value == std::floor(spec.seed.value))))
 		Refuse("tilt_lens: seed must be a whole number from 0 to 4294967295, but is %g.", spec.seed.value);
+	if(spec.show_width && !(spec.show_width.value >= 1.0 && spec.show_width.value <= 1e6))
+		Refuse("tilt_lens: the width behind show focus is that of the picture to come, from 1 to 1e6 pixels, but is %g.", spec.show_width.value);
 	if(spec.focal_point)
 		RequireFinite("focal_point", spec.focal_point.value);
 	if(spec.focal_plane_point)

@@ -86,6 +86,7 @@ struct LensSpec
 	// The preview of focus.
 	bool show_focus = false;
 	bool show_plane = false;
+	Given<double> show_width;           ///< of the picture whose pixels `show focus` counts; else this one's
 
 	// Words outside the block. The points move with the camera's transformations.
 	bool angle_given = false;

@@ -36,7 +36,7 @@ comm -12 ours theirs > both
 [ ! -s both ] || fail "files of the distribution's povray: $(cat both)"
 for file in /usr/bin/povray-tilt /usr/bin/tiltcal /usr/bin/tiltcost /usr/bin/povray-strips /usr/bin/tiltcal-batch /etc/povray-tilt/povray.conf \
 	/usr/share/doc/povray-tilt/README.md /usr/share/doc/povray-tilt/REFERENCE.md /usr/share/povray-tilt/include/tilt_lens.inc /usr/share/doc/povray-tilt/povray-patch/TILT-LENS-INC.md /usr/share/doc/povray-tilt/calib/CALIBRATING.md \
-	/usr/share/doc/povray-tilt/copyright /usr/share/tilt-lens/calibration.schema.json /usr/share/doc/povray-tilt/tests/cli/outside/tilts.cpp \
+	/usr/share/doc/povray-tilt/copyright /usr/share/tilt-lens/calibration.schema.json /usr/share/tilt-lens/editors/vim/syntax/pov.vim /usr/share/tilt-lens/editors/vscode/package.json /usr/share/doc/povray-tilt/tests/cli/outside/tilts.cpp \
 	/usr/lib/povray-tilt/lib/libtiltcal.so /usr/lib/povray-tilt/lib/cmake/tiltcal/tiltcalConfig.cmake /usr/lib/povray-tilt/include/tilt-lens/tiltcal/calibrate.h; do
 	grep -qx "$file" ours || fail "$file is not in the package"
 done
