@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 //
 // A syntax file for an editor from its frame on stdin: @VERSION@ is replaced by the first argument, @WORDS@ by the words
-// of the tilt_lens block with the second between them. They come from the table that the parser has.
+// of the tilt_lens block, as the second's editor wants them. They come from the table that the parser has.
 //
-//   editor_words VERSION SEPARATOR < FRAME > FILE
+//   editor_words VERSION vim|vscode < FRAME > FILE
 
 #include <cctype>
 #include <iostream>
@@ -58,14 +58,15 @@ void Replace(std::string& text, const std::string& what, const std::string& by)
 
 int main(int count, char** arguments)
 {
-	if(count != 3)
+	const std::string editor = count == 3 ? arguments[2] : "";
+	if(editor != "vim" && editor != "vscode")
 	{
-		std::cerr << "usage: editor_words VERSION SEPARATOR < FRAME > FILE\n";
+		std::cerr << "usage: editor_words VERSION vim|vscode < FRAME > FILE\n";
 		return 2;
 	}
 	std::string text((std::istreambuf_iterator<char>(std::cin)), std::istreambuf_iterator<char>());
 	Replace(text, "@VERSION@", arguments[1]);
-	Replace(text, "@WORDS@", Words(arguments[2]));
+	Replace(text, "@WORDS@", Words(editor == "vim" ? " " : "|"));
 	std::cout << text;
 	return std::cout.flush() ? 0 : 1;
 }

@@ -38,19 +38,18 @@ bool IsOfOneSurface(double before, double a, double b, double after)
 void AddCrossings(const BlurGrid& grid, int column, int row, int right, int down, std::vector<Candidate>& found)
 {
 	const double a = grid.At(column, row), b = grid.At(column + right, row + down);
-	if(!(a * b > 0.0) || !std::isfinite(a) || !std::isfinite(b))
+	if(!std::isfinite(a) || !std::isfinite(b))
 		return;
 	if(!IsOfOneSurface(grid.At(column - right, row - down), a, b, grid.At(column + 2 * right, row + 2 * down)))
 		return;
-	const double from = std::fabs(a), to = std::fabs(b);
 	for(int octave = 1; octave <= 30; octave++)
-	{
-		const double width = std::ldexp(1.0, octave);
-		if((from < width) == (to < width))
-			continue;
-		const double part = (width - from) / (to - from);
-		found.push_back({ (column + part * right) * grid.spacing, (row + part * down) * grid.spacing, octave, a > 0.0 });
-	}
+		for(double width : { -std::ldexp(1.0, octave), std::ldexp(1.0, octave) })
+		{
+			if((a < width) == (b < width))
+				continue;
+			const double part = (width - a) / (b - a);
+			found.push_back({ (column + part * right) * grid.spacing, (row + part * down) * grid.spacing, octave, width > 0.0 });
+		}
 }
 
 /// Dots of picture rows; digits are some 2 % of the picture's height.

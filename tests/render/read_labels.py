@@ -16,7 +16,7 @@ DIGITS = {shape: digit for digit, shape in SHAPES.items()}
 
 def picture(name):
     data = open(name, "rb").read()
-    header = re.match(rb"P6\s+(\d+)\s+(\d+)\s+(\d+)\s", data)
+    header = re.match(rb"P6\s+(?:#.*\n)*(\d+)\s+(\d+)\s+(\d+)\s", data)
     width, height, most = map(int, header.groups())
     size = 2 if most > 255 else 1
     at = header.end()

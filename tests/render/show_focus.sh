@@ -22,8 +22,8 @@ numbers)
 	render "$ours" wall.ppm wall.pov +W240 +H180
 	# 2, 4, 8, 16, 32 on either side; the last stand at columns 12.8 and 226.2.
 	check "labels of the wall" python3 "$here/read_labels.py" wall.ppm 0.3 119.5 10
-	cat check.txt | grep -q -- '-32, -16, -2, -4, -8, 16, 2, 32, 4, 8' || fail "not all numbers: $(cat check.txt)"
-	# Without an aperture, and with show plane alone, there are none; with both there are.
+	grep -q -e '-16, -2, -32, -4, -8, 16, 2, 32, 4, 8' check.txt || fail "not all numbers: $(cat check.txt)"
+	# With show plane alone there are none.
 	wall plane "show plane"
 	render "$ours" plane.ppm plane.pov +W240 +H180
 	python3 "$here/read_labels.py" plane.ppm 0.3 119.5 1 > none.txt && fail "show plane has numbers: $(cat none.txt)"
@@ -43,7 +43,7 @@ strips)
 		import re
 		def rows(name):
 		    data = open(name, "rb").read()
-		    header = re.match(rb"P6\s+(\d+)\s+(\d+)\s+(\d+)\s", data)
+		    header = re.match(rb"P6\s+(?:#.*\n)*(\d+)\s+(\d+)\s+(\d+)\s", data)
 		    row = 6 * int(header.group(1))
 		    return [data[i:i + row] for i in range(header.end(), len(data), row)]
 		whole, upper, lower = rows("whole.ppm"), rows("upper.ppm"), rows("lower.ppm")
