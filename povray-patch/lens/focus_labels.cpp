@@ -52,10 +52,10 @@ void AddCrossings(const BlurGrid& grid, int column, int row, int right, int down
 		}
 }
 
-/// Dots of picture rows; digits are some 2 % of the picture's height.
+/// Pixels of a dot; digits are some 3 % of the picture's height.
 int ScaleFor(int height)
 {
-	return std::max(1, (height + 180) / 360);
+	return std::max(1, (height + 90) / 180);
 }
 
 bool Overlaps(const FocusLabel& a, const FocusLabel& b, int gap)
