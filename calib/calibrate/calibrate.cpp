@@ -194,8 +194,6 @@ void Refine(const Task& task, const CalibrateOptions& o, Calibration& c)
 		c.render = c.solution;
 }
 
-void JudgeRealLens(bool asked, RealLens& lens) { lens.used = asked || (lens.held_out > 0 && lens.held_out < WORTH_IT * lens.held_out_thin); }
-
 /// A real lens where it was asked for; else where a thin one leaves over more than noise, the choice is free, and photographs left out are
 /// predicted better by WORTH_IT, as CurvatureIsSeen wants it. With the rims that are written, which decide what of the opening an edge is seen through.
 void FindRealLens(const CalibrateOptions& o, Calibration& c)
@@ -204,16 +202,16 @@ void FindRealLens(const CalibrateOptions& o, Calibration& c)
 	if (!asked && (o.model || o.effects.kind != EffectChoice::AUTO || !c.refined || !AberrationsAreLeftOver(c)))
 		return;
 	o.log.Info("solving one real lens, with aberrations, for all states");
-	RealLenses found = FindRealLens(c.task, c.geometry, c.solution, WrittenRims(c), [&](RealLens lens)
+	RealLenses found = FindRealLens(c.task, c.geometry, c.solution, WrittenRims(c), [&](RealLens& lens)
 	{
-		JudgeRealLens(asked, lens);
+		lens.used = asked || (lens.held_out > 0 && lens.held_out < WORTH_IT * lens.held_out_thin);
 		if (!lens.used || !o.scene_lens)
 			return false;
 		o.log.Info("solving it with ten more numbers, for scenes");
 		return true;
 	});
 	c.real_lens = std::move(found.tilts);
-	RealLens& lens = *c.real_lens;
+	const RealLens& lens = *c.real_lens;
 	if (!lens.failure.empty())
 	{
 		if (asked)
@@ -221,7 +219,6 @@ void FindRealLens(const CalibrateOptions& o, Calibration& c)
 		o.log.Info(fmt::format("no real lens: {}", lens.failure));
 		return;
 	}
-	JudgeRealLens(asked, lens);
 	o.log.Info(fmt::format("real lens {}: photographs left out are predicted to {:.2f} of what is usual by it, to {:.2f} by {}", lens.used ? "taken" : "not taken", lens.held_out, lens.held_out_thin,
 		NameOf(c.solution.model)));
 	c.scene_lens = std::move(found.scene);

@@ -121,7 +121,7 @@ RealLens Described(const Task& task, const RealLensAnswer& answer)
 }
 
 RealLenses FindRealLens(const Task& task, const Geometry& geometry, const Solution& thin, const std::vector<tilt_lens::Rim>& rims,
-	const std::function<bool(const RealLens& tilts)>& wants_scene)
+	const std::function<bool(RealLens& tilts)>& judge)
 {
 	RealLenses found;
 	const Stopwatch time;
@@ -134,7 +134,7 @@ RealLenses FindRealLens(const Task& task, const Geometry& geometry, const Soluti
 	found.tilts = Described(task, *six);
 	found.tilts.held_out_thin = HeldOutOf(task, geometry, thin, six->error);
 	found.tilts.seconds = time.Seconds();
-	if (!wants_scene(found.tilts))
+	if (!judge(found.tilts))
 		return found;
 	const Stopwatch more;
 	const std::optional<RealLensAnswer> sixteen = SolveSceneLens(task, geometry, six->numbers);
