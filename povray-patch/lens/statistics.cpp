@@ -104,6 +104,12 @@ void Append(std::string& text, const char* format, ...)
 	text += line;
 }
 
+/// Degrees as they are printed with two places: no "-0.00".
+double WithoutMinusZero(double degrees)
+{
+	return std::fabs(degrees) < 0.005 ? 0.0 : degrees;
+}
+
 void AppendPlane(std::string& text, const TiltLens& lens)
 {
 	const Vec3d& q = lens.inverse_focus_camera;
@@ -121,7 +127,7 @@ void AppendPlane(std::string& text, const TiltLens& lens)
 		Append(text, "Bowl of Focus:   touches, on the lens axis, the\n");
 	Append(text, "Plane of Focus:  %.3f deg to the sensor", AngleFromAxis(m) * DegreesPerRadian);
 	if(qxy > 0.0)
-		Append(text, ", receding towards %.2f deg", TiltDirection(m) * DegreesPerRadian);
+		Append(text, ", receding towards %.2f deg", WithoutMinusZero(TiltDirection(m) * DegreesPerRadian));
 	if(std::fabs(q.z) > 1e-12 * qxy)
 		Append(text, "\n  Distance:      %.6g along the axis", 1.0 / q.z);
 	else

@@ -87,6 +87,7 @@ TEST(Statistics, TextNamesTheFigures)
 	const TiltLens lens = Resolved(60.0, 90.0, 8.0, 0.5);
 	const std::string text = StatisticsText(lens, CountFocus(lens, Camera, 8, 6, 0, 0, 7, 5), a);
 	EXPECT_THAT(text, HasSubstr("60.000 deg to the sensor, receding towards 90.00 deg"));
+	EXPECT_THAT(StatisticsText(Resolved(60.0, -1e-9, 8.0, 0.5), {}, a), HasSubstr("receding towards 0.00 deg"));
 	EXPECT_THAT(text, HasSubstr("Distance:      8 along the axis"));
 	EXPECT_THAT(text, HasSubstr("min 16  mean 40.00  max 64   Camera Rays: 98"));
 	EXPECT_THAT(text, HasSubstr("0.00141 RMS"));          // sqrt(2e-6)
