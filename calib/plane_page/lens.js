@@ -122,7 +122,8 @@ const Follow = (s, lens, camera) => {
 	else {
 		const length = ScaledLength(lens.q), n = length > 0 ? Times(1 / length, lens.q) : [0, 0, 1];
 		const world = v => [0, 1, 2].map(i => v[0] * camera.axes[0][i] + v[1] * camera.axes[1][i] + v[2] * camera.axes[2][i]);
-		s.normal = world(n);
+		// What is nothing but rounding is written as 0.
+		s.normal = world(n).map(x => (Math.abs(x) < 1e-14 ? 0 : x));
 		s.point = Add(camera.location, world(Times(1 / Math.max(length, 1e-30), n)));
 	}
 	if (s.hold !== 'focal_length')

@@ -50,7 +50,7 @@ std::string PlanePart(const std::string& lens)
 std::string PlanePage(const std::string& title, const std::string& about, const std::string& lens)
 {
 	return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"/><meta name=\"viewport\" content=\"width=device-width\"/><meta name=\"color-scheme\" content=\"light dark\"/><title>"
-		+ EscapedTitle(title) + ": the plane of focus</title>\n<style>\n" + PlanePageStyleText + PlaneStyleText + "</style></head>\n<body><h1>" + EscapedTitle(title) + "</h1>\n<p class=\"about\">" + about
+		+ EscapedTitle(title) + ": the plane of focus</title>\n<style>\n" + PlaneStyleText + PlanePageStyleText + "</style></head>\n<body><h1>" + EscapedTitle(title) + "</h1>\n<p class=\"about\">" + about
 		+ "</p>\n" + PlanePart(lens) + "<p class=\"plane-still\">This page draws with JavaScript, which is switched off here.</p>\n<script>\n" + PlaneScript() + "</script></body></html>\n";
 }
 

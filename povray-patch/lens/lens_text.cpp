@@ -125,7 +125,6 @@ std::string LensText(const LensSpec& spec, const CameraVectors& camera, const Ti
 	const Vec3d y = Normalized(camera.up - Dot(x, camera.up) * x);
 	const Vec3d shift = spec.shift ? spec.shift.value : Vec3d{ 0.0, 0.0, 0.0 };
 	const double w = lens.image_distance, depth = Dot(z, lens.direction), to_sensor = w / depth;
-	const bool whole_plane = spec.focal_plane_point || spec.focal_points[0];
 	std::string text = "{";
 	const auto add = [&text](const char* key, const std::string& value)
 	{
@@ -145,7 +144,7 @@ std::string LensText(const LensSpec& spec, const CameraVectors& camera, const Ti
 	add("sensor_is_window", spec.angle_given ? "false" : "true");
 	add("location", Vector(camera.location));
 	add("axes", "[" + Vector(x) + ", " + Vector(y) + ", " + Vector(z) + "]");
-	add("drive", whole_plane ? "\"point\"" : spec.focal_plane_tilt ? "\"plane\"" : "\"lens\"");
+	add("drive", spec.focal_plane_tilt ? "\"plane\"" : "\"lens\"");
 	add("hold", spec.focal_length ? "\"focal_length\"" : "\"image_distance\"");
 	add("pixels", Pair(width, height));
 	add("focal_point_outside", spec.focal_point ? "true" : "false");
