@@ -78,7 +78,7 @@ class PlanePage {
 			`<fieldset><legend>What stays</legend>${radio('hold', 'focal_length', 'focal length, the sensor moves')}${radio('hold', 'image_distance', 'image distance, the lens follows')}</fieldset>` +
 			`${vector('point', 'Point of the plane')}${vector('normal', 'Normal of the plane')}${Rows.map(row => this.Field(row)).join('')}<p class="pixels"></p>` +
 			'<p><button type="button" class="reset">Back to the beginning</button></p></form>' +
-			`<div class="result"><p class="refusal" role="alert" hidden="hidden"></p><ul class="remarks" aria-live="polite"></ul><table class="numbers"></table>` +
+			`<div class="result"><p class="refusal" role="alert" hidden="hidden"></p><table class="numbers"></table><ul class="remarks" aria-live="polite"></ul>` +
 			`<p class="copy-row"><label for="${this.id}block">To copy into the camera</label> <button type="button" class="copy">Copy</button> <span class="said" role="status"></span></p><textarea class="block" id="${this.id}block" readonly="readonly" spellcheck="false" rows="8"></textarea></div>`;
 		this.root.append(live);
 		this.live = live;

@@ -63,7 +63,7 @@ class Page:
 		return self.js("const l = page.lens; return {q: l.q, w: l.w, f: l.f, d: l.d, corners: l.corners, normal: l.normal}")
 
 	def text(self):
-		return self.find(".result").text + self.find(".pixels").text + self.find("svg").text
+		return self.js("return ['.result', '.pixels'].map(name => page.Find(name).innerText).join('\\n')") + self.find("svg").get_attribute("textContent")
 
 	def view(self):
 		return self.root.get_attribute("data-view")
@@ -82,7 +82,8 @@ def is_sound(driver, file):
 	errors = [entry for entry in driver.get_log("browser") if entry["level"] in ("SEVERE", "WARNING")]
 	assert not errors, errors
 	assert driver.execute_script("return performance.getEntriesByType('resource').length") == 0
-	html = pathlib.Path(file).read_text(errors="replace")
+	# A namespace is a name, not an address that is fetched.
+	html = pathlib.Path(file).read_text(errors="replace").replace('xmlns="http://www.w3.org/2000/svg"', "")
 	for word in ("http:", "https:", "@import", "url(", " src=\"/", "<link"):
 		assert word not in html, word
 
@@ -148,10 +149,10 @@ def page(driver, file):
 		action()
 		assert p.view() != before[0] and p.drawing() != before[1], what
 		is_drawn(p)
-	changes("drag", lambda: ActionChains(driver).drag_and_drop_by_offset(sketch, 120, 40).perform())
+	changes("drag", lambda: ActionChains(driver, duration=20).drag_and_drop_by_offset(sketch, 120, 40).perform())
 	changes("arrow", lambda: sketch.send_keys(Keys.ARROW_LEFT))
 	changes("plus", lambda: sketch.send_keys("+"))
-	changes("wheel", lambda: ActionChains(driver).scroll_from_origin(webdriver.common.actions.wheel_input.ScrollOrigin.from_element(sketch), 0, 200).perform())
+	changes("wheel", lambda: ActionChains(driver, duration=20).scroll_from_origin(webdriver.common.actions.wheel_input.ScrollOrigin.from_element(sketch), 0, 200).perform())
 	for view in ("side", "top", "behind", "camera", "oblique"):
 		changes(view, lambda: p.find(f"[data-view={view}]").click())
 	touch = "const svg = page.live.querySelector('svg'), at = (x, type) => svg.dispatchEvent(new PointerEvent(type, {pointerId: 1, pointerType: 'touch', clientX: x, clientY: 300, bubbles: true}));"
@@ -243,7 +244,7 @@ def report(driver, file):
 	assert "mm" in p.text() and p.find("svg text.number").text == "1"
 	before = p.view()
 	driver.execute_script("arguments[0].scrollIntoView()", p.find("svg"))
-	ActionChains(driver).drag_and_drop_by_offset(p.find("svg"), -80, 20).perform()
+	ActionChains(driver, duration=20).drag_and_drop_by_offset(p.find("svg"), -80, 20).perform()
 	assert p.view() != before and Page(driver, 0).view() == before
 	# The numbers are the calibration's.
 	calibration = json.loads((pathlib.Path(file).parent / "calibration.json").read_text())

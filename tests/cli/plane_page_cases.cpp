@@ -87,7 +87,7 @@ json LensCase(int number)
 		return {};
 	const std::string page = LensText(base, camera, lens, 100, 70);
 
-	const double tilt = Between(-35, 35), direction = Between(-200, 200), f = w0 * Between(0.4, 1.3), U = (number % 9 ? 1 : -1) * w0 * std::exp(Between(-0.5, 5)), N = Between(1, 30);
+	const double tilt = Between(-35, 35), direction = Between(-200, 200), f = w0 * Between(0.4, 1.3), U = (number % 9 ? 1 : -1) * w0 * std::exp(Between(-1.5, 4)), N = Between(1, 30);
 	const double inverse_distance = number % 11 ? 1 / U : 0;
 	const Vec3d point = camera.location + w0 * Anywhere(20), normal = Anywhere(1), shift{ Between(-0.2, 0.2) * w0, Between(-0.2, 0.2) * w0, 0 };
 	LensSpec spec;
