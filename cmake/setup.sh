@@ -13,7 +13,8 @@ packages="
 	libspdlog-dev libfmt-dev libgtest-dev libgmock-dev libbenchmark-dev libpugixml-dev
 	pkg-config pybind11-dev python3-dev libcairo2-dev fonts-dejavu-core poppler-utils
 	gnuplot-nox povray povray-includes slurm-wlm munge procps
-	dpkg-dev file man-db python3-jsonschema python3-openimageio python3-numpy locales"
+	dpkg-dev file man-db python3-jsonschema python3-openimageio python3-numpy locales
+	chromium chromium-driver python3-selenium"
 # Wanted, but nothing fails without them (debootstrap: the workflow `package` tests in a clean root).
 optional="ccache debootstrap"
 
@@ -25,14 +26,14 @@ setup.sh knows apt only. Please install by your system's own names:
   Ceres Solver 2.1, Eigen 3, OpenCV 4, CLI11, nlohmann-json, spdlog, fmt,
   pkg-config, cairo, a sans-serif font, poppler's pdftoppm (for a test)
   GoogleTest, Google Benchmark, pugixml, gnuplot
-  povray 3.7 (stock, the tests' oracle), man (for a test), Python 3 with jsonschema 4 (for a test), the sources of a German locale (for a test), Slurm and munge (for a test), ccache (optional)
+  povray 3.7 (stock, the tests' oracle), man (for a test), Python 3 with jsonschema 4 (for a test), Chromium, its driver and Python's selenium 4 (for a test), the sources of a German locale (for a test), Slurm and munge (for a test), ccache (optional)
   Fedora: gcc-c++ cmake ninja-build patch autoconf automake zlib-devel libpng-devel libjpeg-turbo-devel
           libtiff-devel exiv2-devel openexr-devel boost-devel ceres-solver-devel eigen3-devel opencv-devel cli11-devel
           json-devel spdlog-devel fmt-devel gtest-devel gmock-devel google-benchmark-devel pugixml-devel gnuplot povray ccache
-          pkgconf cairo-devel dejavu-sans-fonts poppler-utils python3-jsonschema
+          pkgconf cairo-devel dejavu-sans-fonts poppler-utils python3-jsonschema chromium chromedriver python3-selenium
   Arch:   base-devel cmake ninja zlib libpng libjpeg-turbo libtiff exiv2 openexr boost ceres-solver eigen opencv
           cli11 nlohmann-json spdlog fmt gtest benchmark pugixml gnuplot povray ccache pkgconf cairo ttf-dejavu poppler
-          python-jsonschema
+          python-jsonschema chromium python-selenium
   and the POV-Ray 3.7.0.10 source archive: cmake --preset release -DPOVRAY_SOURCE=/path/to/archive
 END
 	exit 1

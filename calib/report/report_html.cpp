@@ -6,7 +6,9 @@
 #include "effects/effects.h"
 #include "model/names.h"
 #include "base/files.h"
+#include "plane_page/plane_page.h"
 #include "report/html.h"
+#include "report/report_lens.h"
 #include "report/report_maps.h"
 #include "report/report_scene.h"
 #include "report/report_tables.h"
@@ -47,7 +49,6 @@ svg text.title { font-size: 15px; font-weight: 600 } svg text.strong { font-weig
 figure:has(input:checked) { grid-column: 1 / -1 } figure:has(input:checked) img { cursor: zoom-out }
 .key span { margin-right: 18px; white-space: nowrap } small { color: #555 }
 @media print { h2 { break-before: page } figure, svg { break-inside: avoid } }
-</style></head><body>
 )";
 
 /// Photographs by state: "untilted 6, plus5 6".
@@ -119,9 +120,10 @@ std::string Effects(const Calibration& c)
 std::string Sketches(const Calibration& c)
 {
 	std::string out = "<h2>Camera, boards and plane of focus</h2>\n<p>To scale, in millimetres, in the camera's frame: origin at the lens centre, x right, y up, z forward. "
-		"Boards are numbered and coloured by photograph. Blue: the surface of focus inside the picture; dashed: the plane that touches it on the lens axis.</p>\n";
+		"Boards are numbered and coloured by photograph. Blue: the surface of focus inside the picture; dashed: the plane that touches it on the lens axis. "
+		"On the screen each sketch can be turned, the lens tilted, focused and stopped down, and its <code>tilt_lens</code> block copied.</p>\n";
 	for (size_t s = 0; s < c.task.states.size(); ++s)
-		out += "<h3>" + Escape(c.task.states[s].name) + "</h3>\n" + SceneSvg(c, s);
+		out += "<h3>" + Escape(c.task.states[s].name) + "</h3>\n" + PlanePart(LensOfState(c, s)) + "<div class=\"plane-still\">" + SceneSvg(c, s) + "</div>\n";
 	return out;
 }
 
@@ -223,7 +225,7 @@ void ReportPictures::Add(const cv::Mat& overlay)
 
 std::string ReportHtml(const Calibration& c, const RunNotes& notes, const ReportPictures& pictures)
 {
-	return HEAD + Summary(c, notes) + Tilt(c) + Effects(c) + Sketches(c) + Residuals(c) + Overlays(c, pictures) + Fine(c) + "</body></html>\n";
+	return HEAD + PlaneStyle() + "</style></head><body>\n" + Summary(c, notes) + Tilt(c) + Effects(c) + Sketches(c) + Residuals(c) + Overlays(c, pictures) + Fine(c) + "<script>\n" + PlaneScript() + "</script></body></html>\n";
 }
 
 }

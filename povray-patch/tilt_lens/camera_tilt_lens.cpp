@@ -2,11 +2,15 @@
 //
 // The methods that tilt_lens adds to POV-Ray's Camera.
 
+#include <cstdlib>
+#include <fstream>
+
 // frame.h must always be the first POV file included (pulls in platform config)
 #include "backend/frame.h"
 #include "backend/math/vector.h"
 #include "backend/math/matrices.h"
 #include "backend/scene/camera.h"
+#include "lens/lens_text.h"
 #include "backend/tilt_lens/camera_vectors.h"
 #include "backend/tilt_lens/denoised_picture.h"
 #include "backend/tilt_lens/pilot_queue.h"
@@ -71,6 +75,9 @@ void CameraLens::Begin_Picture(int width, int height, int left, int top, int rig
 	LensChannels::SetCurrent(Records() ? channels : nullptr);
 	if(pilot_queue)
 		pilot_queue->Begin(width, height, left, top, right, bottom);
+	const char *file = std::getenv(WriteLensVariable);
+	if(spec.enabled && (file != NULL))
+		std::ofstream(file) << LensText(spec, vectors, lens, width, height);
 }
 
 }

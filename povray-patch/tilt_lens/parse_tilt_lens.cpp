@@ -250,6 +250,7 @@ void Parser::Resolve_Tilt_Lens(Camera& New)
 	New.Tilt_Lens.spec.bokeh = (New.Bokeh != NULL);
 	if (!tilt_lens::ResolveTiltLens(New.Tilt_Lens.spec, Vectors_Of(New), New.Tilt_Lens.lens, error))
 		Error("%s", error.c_str());
+	New.Tilt_Lens.vectors = Vectors_Of(New);
 	if (New.Bokeh != NULL)
 		Measure_Tilt_Lens_Bokeh(New);
 	if (!New.Tilt_Lens.spec.right_given && New.Tilt_Lens.spec.Sensor_Is_Window())

@@ -6,6 +6,7 @@
 #include "base/files.h"
 #include "program/process.h"
 #include "program/program.h"
+#include "tiltcost/lens_page.h"
 #include "tiltcost/options.h"
 #include "tiltcost/progress.h"
 #include "tiltcost/report.h"
@@ -32,7 +33,7 @@ void CheckFiles(const Options& options)
 		throw tiltcal::FileError(fmt::format("{}: cannot be plotted without gnuplot; install gnuplot-nox, or leave --plot out", options.plot));
 	if (options.job.povray.find('/') != std::string::npos && access(options.job.povray.c_str(), X_OK) != 0)
 		throw tiltcal::FileError(fmt::format("{}: no such program; build the target povray, or give the patched POV-Ray with --povray", options.job.povray));
-	for (const std::string& file : {options.plot, options.csv, options.rows})
+	for (const std::string& file : {options.plot, options.csv, options.rows, options.page})
 	{
 		if (file.empty())
 			continue;
@@ -103,6 +104,11 @@ void Run(const Options& options)
 {
 	CheckFiles(options);
 	tiltcal::CatchInterrupts();
+	if (!options.page.empty())
+	{
+		const tiltcal::TemporaryFolder folder("tiltcost");
+		return tiltcal::WriteText(options.page, LensPage(options.job, folder));
+	}
 	Report report;
 	report.scene = options.job.scene;
 	report.stop_levels = options.stop_levels;

@@ -96,6 +96,7 @@ const char Footer[] =
 	"  tiltcost scenes/first-tilt/first-tilt.pov +Lscenes/first-tilt +W1920 +H1080 --plot cost.svg\n"
 	"  tiltcost scenes/first-tilt/first-tilt.pov +Lscenes/first-tilt +W1920 +H1080 --time 60s\n"
 	"  tiltcost scenes/sweep/sweep.pov +Lscenes/sweep +KFF60 --frames 5 --time 2h       (all sixty frames in two hours)\n"
+	"  tiltcost scenes/first-tilt/first-tilt.pov +Lscenes/first-tilt --page plane.html\n"
 	"\n"
 	"Error: RMS over pixels and channels of the linear picture, 0 to 1, against infinitely many samples. Levels: the same of\n"
 	"the sRGB-encoded picture, times 255. Times are for an otherwise idle machine; confidence is POV-Ray's default, 0.9.\n"
@@ -153,6 +154,7 @@ Options ParseCommandLine(CLI::App& app, int argc, char** argv)
 	app.add_option("--plot", options.plot, "write time against error: FILE.svg or FILE.png");
 	app.add_option("--csv", options.csv, "write the table: FILE.csv");
 	app.add_option("--rows", options.rows, "write the seconds of every row, for the first --setting, else for what the scene\nitself says, and stop: FILE.json; povray-strips cuts pictures by it");
+	app.add_option("--page", options.page, "write a page on which the scene's plane of focus can be tilted, with the tilt_lens\nblock to copy, and stop; nothing is rendered: FILE.html");
 	app.add_option("--pilot-time", pilot_time, "how long pilots may trace, by the clock: blocks of 16 x 16 pixels that\nhave not begun by then are left out, all but the first 4 [10s]");
 	app.add_option("--pilot-blocks", options.job.most_blocks, "at most so many blocks of 16 x 16 pixels [120]")->check(CLI::Range(1, 1000000));
 	app.add_option("--frames", options.job.frames, "the scene is an animation (+KFI +KFF, or its ini file): pilots of so many of its\nframes, evenly spread; all figures are the film's")->check(CLI::Range(1, 1000));
@@ -181,6 +183,13 @@ Options ParseCommandLine(CLI::App& app, int argc, char** argv)
 		throw CLI::ValidationError("--rows", "goes with none of --time, --error, --levels, --csv and --plot");
 	if (!options.rows.empty() && options.job.frames > 0)
 		throw CLI::ValidationError("--rows", "is about one picture, and --frames about many; choose one with +SFn +EFn");
+	if (!options.page.empty() && options.job.frames > 0)
+		throw CLI::ValidationError("--page", "shows one lens, and --frames is about many; choose a frame with +SFn +EFn");
+	if (!options.page.empty() && (options.time > 0 || options.error > 0 || options.levels > 0 || !options.csv.empty() || !options.plot.empty() || !options.rows.empty() || !settings.empty()))
+		throw CLI::ValidationError("--page", "goes with none of --time, --error, --levels, --setting, --csv, --plot and --rows");
+	const std::string page_suffix = std::filesystem::path(options.page).extension().string();
+	if (!options.page.empty() && page_suffix != ".html" && page_suffix != ".htm")
+		throw CLI::ValidationError("--page", fmt::format("'{}' does not end in .html", options.page));
 	for (const std::string& setting : settings)
 		options.own.push_back(ParseSetting(setting));
 	return options;

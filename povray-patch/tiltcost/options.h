@@ -21,7 +21,7 @@ struct Options
 	double time = 0, error = 0, levels = 0;     ///< --time, --error or --levels, at most one of them; 0: not asked
 	double stop_levels = 0.29;
 	std::vector<Setting> own;
-	std::string plot, csv, rows;
+	std::string plot, csv, rows, page;
 };
 
 /// Declares the options on `app` and parses. Words that begin with one + or -, and NAME=value,

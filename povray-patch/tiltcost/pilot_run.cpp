@@ -82,7 +82,6 @@ public:
 	FrameRange Frames();
 
 private:
-	std::vector<std::string> Command(std::optional<int> frame) const;
 	bool Watch(double seconds);
 
 	const Job& job;
@@ -97,20 +96,6 @@ private:
 std::string Quoted(const std::string& path)
 {
 	return path.find_first_of(" \t") == std::string::npos ? path : '"' + path + '"';
-}
-
-/// The user's options, and after them those that keep the user's picture and screen as they are.
-std::vector<std::string> PilotRenders::Command(std::optional<int> frame) const
-{
-	std::vector<std::string> command = {job.povray};
-	command.push_back(IsIniFile(job.scene) ? Quoted(job.scene) : "+I" + Quoted(job.scene));
-	command.insert(command.end(), job.options.begin(), job.options.end());
-	for (const char* option : {"-D", "-P", "-C", "-A", "+SP1", "+EP1", "+V", "+GA", "-RFO"})
-		command.emplace_back(option);
-	if (frame)
-		command.insert(command.end(), {fmt::format("+SF{}", *frame), fmt::format("+EF{}", *frame)});
-	command.push_back("+O" + Quoted(folder.File("picture")));
-	return command;
 }
 
 bool PilotRenders::Watch(double seconds)
@@ -140,20 +125,14 @@ PilotRun PilotRenders::Run(const PilotPlan& plan, double seconds, const std::str
 	std::vector<std::string> environment = {fmt::format("{}={},{},{:g},{}", tilt_lens::PilotVariable, plan.blocks, plan.samples, seconds, file)};
 	if (job.may_write)
 		environment.push_back(fmt::format("{}=1", tilt_lens::PilotWritesVariable));
-	const tiltcal::ProcessResult result = tiltcal::RunProcess({Command(frame), "", environment, "", log},
+	const tiltcal::ProcessResult result = tiltcal::RunProcess({PilotCommand(job, folder, frame), "", environment, "", log},
 		[this](double elapsed) { return Watch(elapsed); });
 	progress.End();
 
 	PilotRun run;
 	const std::string said = Contents(log);
 	run.log = ReadRenderLog(said);
-	if (result.exit_code == 126 || result.exit_code == 127)
-		throw tiltcal::FileError(fmt::format("{}: cannot be run; give the patched POV-Ray with --povray", job.povray));
-	if (run.log.writes)
-		throw tiltcal::Refused(fmt::format("{} opens a file for writing, and tiltcost parses it twice, before you render it. "
-			"If that does no harm, let it with --scene-may-write:\n{}", job.scene, ErrorLines(said)));
-	if (result.exit_code != 0 && !result.stopped)
-		throw tiltcal::Refused(fmt::format("POV-Ray does not render {}:\n{}", job.scene, ErrorLines(said)));
+	CheckPilotRender(job, result, said);
 	run.blocks = ParsePilot(Contents(file));
 	if (run.blocks.empty())
 		NoTiltLens(run.log);
@@ -182,7 +161,7 @@ FrameRange PilotRenders::Frames()
 {
 	const std::string log = folder.File("frames");
 	const auto said = [&] { return ReadRenderLog(Contents(log)); };
-	std::vector<std::string> command = Command({});
+	std::vector<std::string> command = PilotCommand(job, folder);
 	for (const char* option : {"+SR2", "+ER2", "+SC2", "+EC2", "+Q1"})
 		command.emplace_back(option);
 	// POV-Ray says how many frames it is to render before it parses the first.
@@ -232,6 +211,30 @@ std::vector<int> PilotedFrames(const FrameRange& range, int count)
 	for (int i = 0; i < count; ++i)
 		frames.push_back(range.first + int((2LL * i + 1) * all / (2LL * count)));
 	return frames;
+}
+
+std::vector<std::string> PilotCommand(const Job& job, const tiltcal::TemporaryFolder& folder, std::optional<int> frame)
+{
+	std::vector<std::string> command = {job.povray};
+	command.push_back(IsIniFile(job.scene) ? Quoted(job.scene) : "+I" + Quoted(job.scene));
+	command.insert(command.end(), job.options.begin(), job.options.end());
+	for (const char* option : {"-D", "-P", "-C", "-A", "+SP1", "+EP1", "+V", "+GA", "-RFO"})
+		command.emplace_back(option);
+	if (frame)
+		command.insert(command.end(), {fmt::format("+SF{}", *frame), fmt::format("+EF{}", *frame)});
+	command.push_back("+O" + Quoted(folder.File("picture")));
+	return command;
+}
+
+void CheckPilotRender(const Job& job, const tiltcal::ProcessResult& result, const std::string& said)
+{
+	if (result.exit_code == 126 || result.exit_code == 127)
+		throw tiltcal::FileError(fmt::format("{}: cannot be run; give the patched POV-Ray with --povray", job.povray));
+	if (ReadRenderLog(said).writes)
+		throw tiltcal::Refused(fmt::format("{} opens a file for writing, and tiltcost parses it before you render it. "
+			"If that does no harm, let it with --scene-may-write:\n{}", job.scene, ErrorLines(said)));
+	if (result.exit_code != 0 && !result.stopped)
+		throw tiltcal::Refused(fmt::format("POV-Ray does not render {}:\n{}", job.scene, ErrorLines(said)));
 }
 
 bool IsIniFile(const std::string& scene)

@@ -11,6 +11,7 @@
 #include "tiltcost/pilot_file.h"
 #include "tiltcost/search.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -69,6 +70,13 @@ struct RenderLog
 
 /// Whether POV-Ray is to be given `scene` as an ini file, FILE.ini or FILE.ini[SECTION], not as a scene.
 bool IsIniFile(const std::string& scene);
+
+/// The user's options, and after them those that keep the user's picture and screen as they are. `frame`: of an
+/// animation, else none.
+std::vector<std::string> PilotCommand(const Job& job, const tiltcal::TemporaryFolder& folder, std::optional<int> frame = {});
+
+/// Throws tiltcal::Error where POV-Ray, which said `said`, could not be run or did not render the scene.
+void CheckPilotRender(const Job& job, const tiltcal::ProcessResult& result, const std::string& said);
 
 RenderLog ReadRenderLog(const std::string& log);
 

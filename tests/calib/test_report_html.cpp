@@ -82,6 +82,8 @@ void ExpectGoodPage(const Calibration& c)
 	for (const char* const word : { "nan", "inf ", "-nan" })
 		EXPECT_EQ(page.text.find(word), std::string::npos) << word;
 	EXPECT_EQ(page.Find("svg", "sketch").size(), c.task.states.size());
+	EXPECT_EQ(page.Find("div", "plane").size(), c.task.states.size());
+	EXPECT_EQ(page.Find("div", "plane-still").size(), c.task.states.size());
 }
 
 TEST(ReportHtml, IsWellFormedAndSelfContained)

@@ -4,6 +4,7 @@
 
 #include <pugixml.hpp>
 
+#include <algorithm>
 #include <cstring>
 
 namespace
@@ -46,7 +47,7 @@ std::string Complaint(const pugi::xml_node& element)
 			bad = Complaint(child);
 		else if (child.type() != pugi::node_pcdata)
 			bad = std::string("neither element nor text in ") + element.name();
-		else if (std::strcmp(element.name(), "style") != 0)
+		else if (std::strcmp(element.name(), "style") != 0 && std::strcmp(element.name(), "script") != 0)
 			bad = BadText(child.value());
 		if (!bad.empty())
 			return bad;
@@ -64,17 +65,29 @@ void Collect(const pugi::xml_node& element, Page& page)
 	for (const pugi::xml_node& child : element.children())
 		if (child.type() == pugi::node_element)
 			Collect(child, page);
-		else if (found.name != "style")
+		else if (found.name != "style" && found.name != "script")
 			page.text += child.value();
 	if (element.first_child())
 		page.text += " ";
 }
 
+/// Scripts without their code, which is no XML: what it does, cli.plane_page_* tries in a browser.
+std::string WithoutCode(const std::string& html)
+{
+	const std::string begin = "<script>", end = "</script>";
+	std::string out;
+	size_t at = 0;
+	for (size_t from; (from = html.find(begin, at)) != std::string::npos; at = std::min(html.find(end, from), html.size()))
+		out += html.substr(at, from + begin.size() - at);
+	return out + html.substr(at);
 }
 
-Page ReadPage(const std::string& html)
+}
+
+Page ReadPage(const std::string& whole)
 {
 	Page page;
+	const std::string html = WithoutCode(whole);
 	pugi::xml_document written, resolved;
 	const pugi::xml_parse_result parsed = written.load_buffer(html.data(), html.size(), AS_WRITTEN, pugi::encoding_utf8);
 	int pages = 0, others = 0;
@@ -114,7 +127,7 @@ std::string OutsideResource(const Page& page, const std::string& html)
 {
 	for (const PageElement& element : page.elements)
 	{
-		for (const char* const name : { "script", "link", "iframe", "object", "embed", "base" })
+		for (const char* const name : { "link", "iframe", "object", "embed", "base" })
 			if (element.name == name)
 				return "element " + element.name;
 		for (const auto& [name, value] : element.attributes)
@@ -126,7 +139,7 @@ std::string OutsideResource(const Page& page, const std::string& html)
 				return name + "=" + value.substr(0, 80);
 		}
 	}
-	for (const char* const text : { "url(", "@import" })
+	for (const char* const text : { "url(", "@import", "fetch(", "XMLHttpRequest", "import(", "WebSocket" })
 		if (html.find(text) != std::string::npos)
 			return text;
 	return "";

@@ -14,7 +14,7 @@ struct PageElement
 	std::map<std::string, std::string> attributes;   ///< unescaped
 };
 
-/// A page read as XML (its DOCTYPE and contents of <style> aside).
+/// A page read as XML (its DOCTYPE, contents of <style> and code in <script> aside).
 struct Page
 {
 	std::vector<PageElement> elements;
