@@ -50,6 +50,13 @@ class PlanePage {
 		return { ...all, drive: c.drive, hold: s.hold };
 	}
 
+	// Farther, where the plane of focus has left the sketch; not nearer, so that it does not jump.
+	Reach() {
+		const U = 1 / this.lens.q[2];
+		if (this.far && U > 0.9 * this.far)
+			this.far = Math.max(this.far, this.FarOf(this.lens));
+	}
+
 	// How far the sketch reaches.
 	FarOf(lens) {
 		const U = 1 / lens.q[2], hinge = HingeOf(lens.q);
@@ -120,7 +127,10 @@ class PlanePage {
 		this.Find('form').addEventListener('submit', event => event.preventDefault());
 		this.Find('.reset').addEventListener('click', () => {
 			this.settings = JSON.parse(this.first, (key, value) => (key === 'f_stop' && value === null ? Infinity : value));
+			this.far = 0;
 			this.Update();
+			this.far = this.camera.far || this.FarOf(this.lens);
+			this.sketch.Show(this.lens, this.far);
 		});
 		this.Find('.copy').addEventListener('click', () => this.Copy());
 	}
@@ -196,7 +206,9 @@ class PlanePage {
 		this.Find('.said').textContent = '';
 		if (!this.lens)
 			return;
-		this.Find('.remarks').innerHTML = RemarksOn(this.lens, c).map(text => `<li>${Escaped(text)}</li>`).join('');
+		this.Reach();
+		const beyond = 1 / this.lens.q[2] > this.far ? ['On the axis the plane of focus lies beyond what is drawn.'] : [];
+		this.Find('.remarks').innerHTML = [...RemarksOn(this.lens, c), ...beyond].map(text => `<li>${Escaped(text)}</li>`).join('');
 		this.Find('.numbers').innerHTML = NumbersOf(this.lens, c, s).map(([name, value]) => `<tr><th scope="row">${Escaped(name)}</th><td>${Escaped(value)}</td></tr>`).join('');
 		const pixel = Math.hypot(...c.right) * (c.sensor_is_window ? 1 : this.lens.w / c.image_distance) / c.pixels[0];
 		this.Find('.pixels').textContent = c.pixels[0] > 0 ? `The circle of confusion is ${Short(s.circle / pixel)} pixels of a picture ${c.pixels[0]} wide.` : '';

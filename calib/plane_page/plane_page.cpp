@@ -13,8 +13,12 @@ std::string EscapedTitle(const std::string& text)
 {
 	std::string out;
 	for (const char c : text)
-		if (c == '&' || c == '<' || c == '>' || c == '"')
-			out += "&#" + std::to_string(int(c)) + ";";
+		if (c == '&')
+			out += "&amp;";
+		else if (c == '<')
+			out += "&lt;";
+		else if (c == '>')
+			out += "&gt;";
 		else
 			out += c;
 	return out;

@@ -167,7 +167,7 @@ class Sketch {
 			this.Label([0, 0, U], 'U = ' + length(U), 'strong', true);
 		}
 		if (hinge && ScaledLength(hinge) < reach) {
-			const along = Normalized(Cross(hinge, [0, 0, 1])), half = Math.min(0.5 * this.far, ScaledLength(hinge) + 2 * lens.w);
+			const along = Normalized(Cross(hinge, [0, 0, 1])), half = Math.max(2 * lens.w, ...plane.map(P => Math.abs(Dot(P, along))));
 			out += this.Path([Add(hinge, Times(-half, along)), Add(hinge, Times(half, along))], 'hinge', false);
 			// The plane of focus from the hinge to the picture.
 			plane.forEach(P => { out += this.Path([Add(hinge, Times(Dot(P, along), along)), P], 'extension', false); });

@@ -3,6 +3,7 @@
 // report.html of synthetic calibrations: well-formed, self-contained, complete, and the sketch against Merklinger's hinge rule.
 
 #include <tiltcal/calibrate.h>
+#include "plane_page/plane_page.h"
 #include "report/html.h"
 #include "support/page_check.h"
 #include "report/report_html.h"
@@ -93,6 +94,16 @@ TEST(ReportHtml, IsWellFormedAndSelfContained)
 		SCOPED_TRACE(NameOf(model));
 		ExpectGoodPage(CalibrationOf(Tilted(5, 30), model, 3));
 	}
+}
+
+TEST(ReportHtml, LiveSketchKeepsItsTextsInsideItsScript)
+{
+	const std::string part = PlanePart("{\"remarks\": [\"</script><b>&amp;<!--\"]}");
+	EXPECT_THAT(part, HasSubstr("\\u003c/script\\u003e\\u003cb\\u003e\\u0026amp;\\u003c!--"));
+	EXPECT_EQ(part.find("</script>"), part.rfind("</script>"));
+	const std::string page = PlanePage("<b>&", "", "{}");
+	EXPECT_THAT(page, HasSubstr("<h1>&lt;b&gt;&amp;</h1>"));
+	EXPECT_EQ(ReadPage(page).complaint, "");
 }
 
 TEST(ReportHtml, OfOnePhotographAState)

@@ -192,6 +192,9 @@ def page(driver, file):
 	says("to ∞")
 	p.type("inverse_distance", repr(hyperfocal * 0.9999))
 	assert "to ∞" not in p.text(), p.text()
+	for distance, drawn in ((200, True), (1e7, False)):
+		p.type("inverse_distance", str(distance))
+		assert ('class="focus"' in p.drawing()) == drawn and ("beyond what is drawn" in p.text()) != drawn, distance
 	p.type("inverse_distance", "inf")
 	says("at infinity")
 	assert "focal_distance 1e+30" in p.block(), p.block()
@@ -277,10 +280,7 @@ def blocks(driver, file, tiltcost, povray, scene):
 	tried = 0
 	for drive in ("lens", "plane", "point"):
 		for hold in ("focal_length", "image_distance"):
-			p.find(".reset").click()
-			p.choose("drive", "lens")
-			for name, text in (("direction", "140"), ("tilt", "-6"), ("inverse_distance", "7.25"), ("f_stop", "2.8"), ("shift_x", "0.05"), ("shift_y", "-0.02")):
-				p.type(name, text)
+			p.js("Object.assign(page.settings, JSON.parse(page.first), {drive: 'lens', direction: 140, tilt: -6, inverse_distance: 1 / 7.25, f_stop: 2.8, shift: [0.05, -0.02]}); page.Update()")
 			p.choose("drive", drive)
 			p.choose("hold", hold)
 			block, lens, camera = p.block(), p.lens(), parsed(p.block())
