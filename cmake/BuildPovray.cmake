@@ -44,7 +44,7 @@ if(NOT configured STREQUAL wanted)
 	execute_process(
 		COMMAND "${CMAKE_COMMAND}" -E env ASAN_OPTIONS=detect_leaks=0 # configure's test programs leak
 			./configure "COMPILED_BY=the tilt-lens project" NON_REDISTRIBUTABLE_BUILD=yes
-			--without-libsdl --without-x --disable-optimiz --disable-optimiz-arch --disable-strip
+			--disable-optimiz --disable-optimiz-arch --disable-strip
 			--with-boost-thread=boost_thread
 			"LIBS=-lboost_system -lboost_thread" "CPPFLAGS=-I${PATCH_DIR}" "CXXFLAGS=${FLAGS}" "CFLAGS=${FLAGS}" "LDFLAGS=${OWN_FLAGS}"
 			"CXX=${CCACHE} ${CXX}" "CC=${CCACHE} ${CC}"
