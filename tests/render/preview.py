@@ -38,9 +38,10 @@ best = None
 # The window's corner: where the picture's first coloured column could be. All places, by the first row first.
 for y in range(shown.shape[0] - height + 1):
 	for x in range(shown.shape[1] - width + 1):
-		if (shown[y, x] == wanted[0, 0]).all() and (shown[y, x:x + width] == wanted[0]).all():
+		if (numpy.abs(shown[y, x] - wanted[0, 0]) <= 1).all() and (numpy.abs(shown[y, x:x + width] - wanted[0]) <= 1).all():
 			worst = numpy.abs(shown[y:y + height, x:x + width] - wanted).max()
 			best = worst if best is None else min(best, worst)
 assert best is not None, "its first row is nowhere"
-assert best == 0, f"it differs by {best} of 255"
-print(f"{width} x {height} pixels, the same")
+# The window rounds to 8 bits otherwise than the file.
+assert best <= 1, f"it differs by {best} of 255"
+print(f"{width} x {height} pixels, the same but for rounding")
