@@ -117,7 +117,10 @@ std::string CameraBlockOf(const StateCamera& camera, const Place& place, double 
 	BlockLayout layout;
 	layout.place = PlaceLines(camera, place, unit_mm);
 	if (camera.aberrations)
-		layout.lens_words = RealLensWords(RealLensOf(*camera.aberrations, unit_mm), tilt_lens::ThirdOrderTerms);
+	{
+		const tilt_lens::RealLens<double> lens = RealLensOf(*camera.aberrations, unit_mm);
+		layout.lens_words = RealLensWords(lens, TermsOf(lens));
+	}
 	return CameraBlockText(camera, PlainNumbers(unit_mm), layout);
 }
 

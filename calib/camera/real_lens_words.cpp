@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace tiltcal
 {
 
@@ -25,6 +27,12 @@ tilt_lens::RealLens<double> RealLensOf(const CameraAberrations& a, double unit_m
 	for (size_t k = 0; k < a.mm.size(); ++k)
 		lens.aberrations.c[k] = a.mm[k] / unit_mm;
 	return lens;
+}
+
+int TermsOf(const tilt_lens::RealLens<double>& lens)
+{
+	const double* const c = lens.aberrations.c;
+	return std::any_of(c + ThirdOrderTerms, c + AberrationTerms, [](double fifth) { return fifth != 0; }) ? AberrationTerms : ThirdOrderTerms;
 }
 
 std::string RealLensWords(const tilt_lens::RealLens<double>& lens, int terms)

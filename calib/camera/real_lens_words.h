@@ -12,6 +12,9 @@
 namespace tiltcal
 {
 
+/// How many of its numbers it needs: ThirdOrderTerms, or all where one of the fifth order is not 0.
+int TermsOf(const tilt_lens::RealLens<double>& lens);
+
 /// The words `pupil_magnification` and `aberrations` of the tilt_lens block, indented by two tabs. `terms`: ThirdOrderTerms or all.
 std::string RealLensWords(const tilt_lens::RealLens<double>& lens, int terms);
 

@@ -222,7 +222,8 @@ std::optional<StateCamera> ReadRealLensCamera(const std::string& file, const std
 	if (!json.contains("real_lens") || !json["real_lens"].contains("used") || !top["real_lens"]["used"].Flag())
 		return std::nullopt;
 	StateCamera c = ThinCamera(top, name);
-	const Node lens = top["real_lens"], states = lens["states"];
+	const bool scene = json.contains("scene_lens") && top["scene_lens"]["used"].Flag();
+	const Node lens = top[scene ? "scene_lens" : "real_lens"], states = lens["states"];
 	states.NeedList(0);
 	for (size_t i = 0; i < states.json->size(); ++i)
 	{
@@ -231,8 +232,23 @@ std::optional<StateCamera> ReadRealLensCamera(const std::string& file, const std
 			continue;
 		CameraAberrations a{ lens["pupil_magnification"].Positive(), lens["focal_length_mm"].Positive(), 0, {} };
 		a.radius_mm = 0.5 * a.focal_length_mm / lens["f_stop_of_aberrations"].Positive();
-		for (size_t k = 0; k < a.mm.size(); ++k)
-			a.mm[k] = lens["aberrations"][tilt_lens::AberrationWords[k]].Number() * a.focal_length_mm / 1000;
+		const double unit = a.focal_length_mm / 1000;
+		for (size_t k = 0; k < tilt_lens::ThirdOrderTerms; ++k)
+			a.mm[k] = lens["aberrations"][tilt_lens::AberrationWords[k]].Number() * unit;
+		if (lens["aberrations"].json->contains("fifth_order"))
+		{
+			const Node fifth = lens["aberrations"]["fifth_order"];
+			fifth.NeedList(tilt_lens::FifthOrderTerms);
+			for (size_t k = 0; k < tilt_lens::FifthOrderTerms; ++k)
+				a.mm[tilt_lens::ThirdOrderTerms + k] = fifth.At(k).Number() * unit;
+		}
+		if (lens.json->contains("rims"))
+		{
+			const Node rims = lens["rims"];
+			rims.NeedList(0);
+			for (size_t k = 0; k < rims.json->size() && k < c.rims_mm.size(); ++k)
+				c.rims_mm[k] = { rims.At(k)["radius_mm"].Positive(), rims.At(k)["distance_mm"].Number() };
+		}
 		c.model = "lens";
 		c.aperture_diameter_mm *= lens["aperture_diameter_mm"].Positive() / top["aperture_diameter_mm"].Positive();   // blades widen both
 		c.image_distance_mm = state["exit_pupil_to_sensor_mm"].Positive() / a.pupil_magnification;

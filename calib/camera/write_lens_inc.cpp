@@ -19,7 +19,7 @@ namespace
 /// The thin lens's camera with the numbers of the real one; what the aberrations say is taken out.
 StateCamera CameraOfLens(const Calibration& c, size_t s)
 {
-	const RealLens& lens = *c.real_lens;
+	const RealLens& lens = c.LensOfScenes();
 	const RealLensState& state = lens.states[s];
 	StateCamera camera = CameraOfState(c, s);
 	camera.model = "lens";
@@ -43,6 +43,8 @@ StateCamera CameraOfLens(const Calibration& c, size_t s)
 	camera.aberrations = { m, lens.focal_length_mm.value, lens.radius_mm, {} };
 	for (size_t k = 0; k < lens.aberrations_mm.size(); ++k)
 		camera.aberrations->mm[k] = lens.aberrations_mm[k].value;
+	for (size_t k = 0; k < lens.rims.size() && k < camera.rims_mm.size(); ++k)
+		camera.rims_mm[k] = { lens.rims[k].radius_mm.value, lens.rims[k].distance_mm.value };
 	camera.focal_plane_tilt_deg = state.lens.focal_plane_tilt.value;
 	camera.sigma.focal_plane_tilt_deg = state.lens.focal_plane_tilt.sigma;
 	camera.focal_length_mm = state.lens.focal_length.value;
@@ -88,11 +90,11 @@ std::string Declares(const StateCamera& camera, const std::string& prefix)
 
 std::string RealLensPart(const Calibration& c, size_t s)
 {
-	const RealLens& found = *c.real_lens;
+	const RealLens& found = c.LensOfScenes();
 	const std::string p = "TiltCal_" + c.task.states[s].name;
 	const StateCamera camera = CameraOfLens(c, s);
 	BlockLayout layout;
-	layout.lens_words = RealLensWords(RealLensOf(*camera.aberrations), tilt_lens::ThirdOrderTerms);
+	layout.lens_words = RealLensWords(RealLensOf(*camera.aberrations), found.fifth_order ? tilt_lens::AberrationTerms : tilt_lens::ThirdOrderTerms);
 	layout.rims_only_if = camera.rims_mm.empty() ? "" : "TiltCal_Rim";
 	layout.place = MacroPlace(p, camera.width * camera.pitch_mm, camera.height * camera.pitch_mm);
 	return fmt::format("// One real lens for all states: focal length {:.6g} +- {:.2g} mm; the places of edges fit to {:.3f} px, their blurs to {:.3f} px.\n", found.focal_length_mm.value,

@@ -256,9 +256,8 @@ Json CovarianceJson(const NamedCovariance& c)
 	return json;
 }
 
-Json RealLensJson(const Calibration& c)
+Json RealLensJson(const Calibration& c, const RealLens& lens)
 {
-	const RealLens& lens = *c.real_lens;
 	Json json;
 	if (!lens.failure.empty())
 	{
@@ -270,8 +269,22 @@ Json RealLensJson(const Calibration& c)
 	Put(json, "pupil_magnification", "", lens.pupil_magnification);
 	Put(json, "psf_floor_squared", "_px2", lens.psf_floor_squared);
 	json["f_stop_of_aberrations"] = 0.5 * lens.focal_length_mm.value / lens.radius_mm;
-	for (size_t k = 0; k < lens.aberrations_mm.size(); ++k)
+	for (size_t k = 0; k < tilt_lens::ThirdOrderTerms; ++k)
 		Put(json["aberrations"], tilt_lens::AberrationWords[k], "", lens.PerMille(k));
+	for (size_t k = tilt_lens::ThirdOrderTerms; lens.fifth_order && k < lens.aberrations_mm.size(); ++k)
+	{
+		json["aberrations"]["fifth_order"].push_back(lens.PerMille(k).value);
+		json["aberrations"]["fifth_order_sigma"].push_back(lens.PerMille(k).sigma);
+	}
+	if (lens.fifth_order)
+		json["rims"] = Json::array();
+	for (const RimEstimate& rim : lens.rims)
+	{
+		Json one;
+		Put(one, "radius", "_mm", rim.radius_mm);
+		Put(one, "distance", "_mm", rim.distance_mm);
+		json["rims"].push_back(one);
+	}
 	for (size_t s = 0; s < lens.states.size(); ++s)
 	{
 		const RealLensState& state = lens.states[s];
@@ -285,7 +298,7 @@ Json RealLensJson(const Calibration& c)
 	json["rms_place_px"] = lens.rms_place;
 	json["rms_blur_px"] = lens.rms_blur;
 	json["held_out"] = PositiveOrNull(lens.held_out);
-	json["held_out_thin"] = PositiveOrNull(lens.held_out_thin);
+	json[lens.fifth_order ? "held_out_six" : "held_out_thin"] = PositiveOrNull(lens.held_out_thin);
 	json["used"] = lens.used;
 	return json;
 }
@@ -366,7 +379,9 @@ std::string CalibrationJson(const Calibration& c)
 		json["correlations"][r.first][r.second] = r.value;
 	json["tilt_told_by"] = EvidenceJson(c);
 	if (c.real_lens)
-		json["real_lens"] = RealLensJson(c);
+		json["real_lens"] = RealLensJson(c, *c.real_lens);
+	if (c.scene_lens)
+		json["scene_lens"] = RealLensJson(c, *c.scene_lens);
 	if (!c.solution.covariance.names.empty())
 	{
 		json["covariance"] = CovarianceJson(c.solution.covariance);

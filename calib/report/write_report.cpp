@@ -142,14 +142,28 @@ std::string RealLensText(const Calibration& c)
 	std::string out = fmt::format("\nreal lens, one for all states: focal length {} mm, aperture {} mm, pupil magnification {}\n", PlusMinus(lens.focal_length_mm, 3),
 		PlusMinus(lens.aperture_diameter_mm, 3), PlusMinus(lens.pupil_magnification, 4));
 	out += "  thousandths of the focal length:";
-	for (size_t k = 0; k < lens.aberrations_mm.size(); ++k)
-		out += fmt::format(" {} {}{}", tilt_lens::AberrationWords[k], PlusMinus(lens.PerMille(k), 3), k + 1 < lens.aberrations_mm.size() ? "," : "\n");
+	for (size_t k = 0; k < tilt_lens::ThirdOrderTerms; ++k)
+		out += fmt::format(" {} {}{}", tilt_lens::AberrationWords[k], PlusMinus(lens.PerMille(k), 3), k + 1 < tilt_lens::ThirdOrderTerms ? "," : "\n");
 	for (size_t s = 1; s < lens.states.size(); ++s)
 		out += fmt::format("  {}: tilt {} degrees towards {}\n", c.task.states[s].name, PlusMinus(lens.states[s].lens.lens_tilt, 3), PlusMinus(lens.states[s].lens.tilt_direction, 2));
 	out += fmt::format("  places of edges fit to {:.3f} px, their blurs to {:.3f} px\n", lens.rms_place, lens.rms_blur);
 	if (lens.held_out > 0 && lens.held_out_thin > 0)
 		out += fmt::format("  photographs left out are predicted to {:.2f} of what is usual by it, to {:.2f} by {}\n", lens.held_out, lens.held_out_thin, NameOf(c.solution.model));
 	return out + (lens.used ? "  it was taken: the tilts are its own; the .inc files have it where TiltCal_Real_Lens is 1\n" : "  it was not taken\n");
+}
+
+/// Sixteen numbers.
+std::string SceneLensText(const Calibration& c)
+{
+	const RealLens& lens = *c.scene_lens;
+	std::string out = fmt::format("  sixteen numbers {} for scenes: places of edges fit to {:.3f} px, their blurs to {:.3f} px", lens.used ? "taken" : "not taken", lens.rms_place, lens.rms_blur);
+	if (lens.held_out > 0 && lens.held_out_thin > 0)
+		out += fmt::format(", photographs left out to {:.2f} of what is usual (six: {:.2f})", lens.held_out, lens.held_out_thin);
+	out += fmt::format("\n    focal length {} mm, aperture {} mm, pupil magnification {}\n", PlusMinus(lens.focal_length_mm, 3), PlusMinus(lens.aperture_diameter_mm, 3), PlusMinus(lens.pupil_magnification, 4));
+	for (const RimEstimate& rim : lens.rims)
+		out += fmt::format("    rim: radius {} mm, {} mm {}\n", PlusMinus(rim.radius_mm, 2), PlusMinus({ std::abs(rim.distance_mm.value), rim.distance_mm.sigma }, 2),
+			rim.distance_mm.value > 0 ? "before the entrance pupil" : "behind the exit pupil");
+	return out;
 }
 
 std::string VerdictText(const Verdict& verdict)
@@ -224,6 +238,8 @@ std::string SummaryTable(const Calibration& c)
 		out += Comparison(c);
 	if (c.real_lens)
 		out += RealLensText(c);
+	if (c.scene_lens)
+		out += SceneLensText(c);
 	if (c.solution.model != Model::PAPER)
 		out += VerdictText(c.verdict);
 	return out;

@@ -80,7 +80,10 @@ std::vector<ceres::ResidualBlockId> Others(const std::vector<ceres::ResidualBloc
 {
 	std::set<ceres::ResidualBlockId> taken;
 	for (const PhotographBlocks& p : photographs)
+	{
 		taken.insert(p.residuals.begin(), p.residuals.end());
+		taken.insert(p.beside.begin(), p.beside.end());
+	}
 	std::vector<ceres::ResidualBlockId> others;
 	for (ceres::ResidualBlockId r : residuals)
 		if (!taken.count(r))
@@ -119,7 +122,7 @@ struct LeftOutEach
 };
 
 /// Of the steps that leaving out each photograph makes. `total`: all photographs and what else is known.
-std::optional<LeftOutEach> Jackknife(const std::vector<Quadratic>& each, const Quadratic& total, const std::vector<PhotographBlocks>& photographs)
+std::optional<LeftOutEach> Jackknife(const std::vector<Quadratic>& predicted, const std::vector<Quadratic>& each, const Quadratic& total, const std::vector<PhotographBlocks>& photographs)
 {
 	const Eigen::LLT<Eigen::MatrixXd> root(total.H);
 	if (root.info() != Eigen::Success)
@@ -141,8 +144,9 @@ std::optional<LeftOutEach> Jackknife(const std::vector<Quadratic>& each, const Q
 		const Eigen::VectorXd r = root.matrixL().solve(each[i].g);
 		const Eigen::VectorXd step = eigen.eigenvectors() * ((eigen.eigenvectors().transpose() * r).array() / (1 - eigen.eigenvalues().array())).matrix();
 		// Its residuals there: the others' minimum lies at `step` in these coordinates.
-		squares += each[i].squares + 2 * r.dot(step) + step.dot(part * step);
-		count += each[i].count;
+		const Eigen::VectorXd shift = root.matrixU().solve(step);
+		squares += predicted[i].squares + 2 * predicted[i].g.dot(shift) + shift.dot(predicted[i].H * shift);
+		count += predicted[i].count;
 		sum += (1 - 1 / in_group[photographs[i].group]) * step * step.transpose();
 	}
 	return LeftOutEach{ root.matrixU().solve(Eigen::MatrixXd(root.matrixU().solve(sum).transpose())), std::sqrt(squares / std::max(count, 1.0)) };
@@ -187,16 +191,23 @@ std::optional<CovarianceByPhotographs> JackknifeOverPhotographs(ceres::Problem& 
 	// Priors.
 	if (const std::vector<ceres::ResidualBlockId> others = Others(residuals, photographs); !others.empty())
 		total = Expand(problem, others, shared);
-	std::vector<Quadratic> each;
+	std::vector<Quadratic> each, predicted;
 	for (const PhotographBlocks& p : photographs)
 	{
 		std::vector<double*> blocks = shared;
 		if (!problem.IsParameterBlockConstant(p.pose))
 			blocks.push_back(p.pose);
-		each.push_back(Reduced(Expand(problem, p.residuals, blocks), size));
+		predicted.push_back(Reduced(Expand(problem, p.residuals, blocks), size));
+		each.push_back(predicted.back());
+		if (!p.beside.empty())
+		{
+			const Quadratic beside = Expand(problem, p.beside, shared);
+			each.back().H += beside.H;
+			each.back().g += beside.g;
+		}
 		total.H += each.back().H;
 	}
-	const std::optional<LeftOutEach> left_out = Jackknife(each, total, photographs);
+	const std::optional<LeftOutEach> left_out = Jackknife(predicted, each, total, photographs);
 	if (!left_out)
 		return std::nullopt;
 	const Eigen::MatrixXd out = FromTangent(problem, shared);

@@ -22,6 +22,7 @@ struct PhotographBlocks
 	std::vector<ceres::ResidualBlockId> residuals;
 	double* pose = nullptr;
 	size_t group = 0;
+	std::vector<ceres::ResidualBlockId> beside{};   ///< left out with it, but not what is predicted of it; they do not know its pose
 };
 
 /// Covariances of the blocks that photographs have in common.

@@ -2,6 +2,7 @@
 
 #include "solve/opening_points.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -11,112 +12,147 @@ namespace tiltcal
 namespace
 {
 
-std::vector<OpeningPoint> Rings()
+std::vector<OpeningPoint> MakeRings(Rings rings)
 {
-	// Gauss's nodes of the square of the radius.
-	const double nodes[] = { 0.5 - 0.5 / std::sqrt(3.0), 0.5 + 0.5 / std::sqrt(3.0) };
+	// Gauss's nodes and weights of the square of the radius, between 0 and 1 (Abramowitz and Stegun, 25.4.30).
+	struct Node { double at, weight; };
+	const std::vector<Node> few{ { 0.5 - 0.5 / std::sqrt(3.0), 0.5 }, { 0.5 + 0.5 / std::sqrt(3.0), 0.5 } };
+	const double inner = 0.5 * 0.339981043584856, outer = 0.5 * 0.861136311594053, heavy = 0.5 * 0.652145154862546, light = 0.5 * 0.347854845137454;
+	const std::vector<Node> fine{ { 0.5 - outer, light }, { 0.5 - inner, heavy }, { 0.5 + inner, heavy }, { 0.5 + outer, light } };
 	const int around = 9;
 	std::vector<OpeningPoint> points;
-	for (int ring = 0; ring < 2; ++ring)
+	double turn = 0;
+	for (const Node& node : rings == FEW ? few : fine)
+	{
 		for (int k = 0; k < around; ++k)
 		{
-			const double a = 2 * M_PI * (k + 0.5 * ring) / around, radius = std::sqrt(nodes[ring]);
-			points.push_back({ radius * std::cos(a), radius * std::sin(a), 0.5 / around });
+			const double a = 2 * M_PI * (k + turn) / around, radius = std::sqrt(node.at);
+			points.push_back({ radius * std::cos(a), radius * std::sin(a), node.weight / around });
 		}
+		turn += 0.5;
+	}
 	return points;
 }
 
-/// A fine cover of the disc, each point with the one of OpeningPoints that stands for it, and the middles of these parts.
-struct Cover
+/// Which of OpeningPoints stands for each point of the cover, and the middles of these parts.
+struct Parts
 {
-	struct Small { double x, y; size_t part; };
-	std::vector<Small> all;
+	std::vector<size_t> of;
 	std::vector<OpeningPoint> middle;   ///< weight: how many
 };
 
-Cover MakeCover()
+Parts MakeParts(const std::vector<OpeningPoint>& points)
 {
-	const int n = 400;
-	const double golden = M_PI * (3 - std::sqrt(5.0));
-	Cover cover;
-	cover.middle.assign(OpeningPoints().size(), { 0, 0, 0 });
-	for (int k = 0; k < n; ++k)
+	Parts parts;
+	parts.middle.assign(points.size(), { 0, 0, 0 });
+	for (const auto& [x, y] : OpeningCover())
 	{
-		const double radius = std::sqrt((k + 0.5) / n), x = radius * std::cos(k * golden), y = radius * std::sin(k * golden);
-		size_t part = 0;
+		size_t nearest = 0;
 		double least = std::numeric_limits<double>::max();
-		for (size_t i = 0; i < OpeningPoints().size(); ++i)
-			if (const double d = std::hypot(x - OpeningPoints()[i].x, y - OpeningPoints()[i].y); d < least)
+		for (size_t i = 0; i < points.size(); ++i)
+			if (const double d = std::hypot(x - points[i].x, y - points[i].y); d < least)
 			{
 				least = d;
-				part = i;
+				nearest = i;
 			}
-		cover.all.push_back({ x, y, part });
-		OpeningPoint& m = cover.middle[part];
+		parts.of.push_back(nearest);
+		OpeningPoint& m = parts.middle[nearest];
 		m = { m.x + x, m.y + y, m.weight + 1 };
 	}
-	for (OpeningPoint& m : cover.middle)
+	for (OpeningPoint& m : parts.middle)
 		m = { m.x / m.weight, m.y / m.weight, m.weight };
+	return parts;
+}
+
+const Parts& PartsOf(Rings rings)
+{
+	static const Parts few = MakeParts(OpeningPoints(FEW)), fine = MakeParts(OpeningPoints(FINE));
+	return rings == FEW ? few : fine;
+}
+
+std::vector<std::array<double, 2>> MakeCover()
+{
+	const double golden = M_PI * (3 - std::sqrt(5.0));
+	std::vector<std::array<double, 2>> cover;
+	for (int k = 0; k < COVER; ++k)
+	{
+		const double radius = std::sqrt((k + 0.5) / COVER);
+		cover.push_back({ radius * std::cos(k * golden), radius * std::sin(k * golden) });
+	}
 	return cover;
 }
 
-bool Passes(const OpeningView& view, const std::vector<tilt_lens::Rim>& rims, double x, double y)
+}
+
+const std::vector<OpeningPoint>& OpeningPoints(Rings rings)
 {
-	const tilt_lens::PupilRay<double> image = tilt_lens::RayToSensor(view.radius * x, view.radius * y, view.X, view.Y, view.depth);
-	for (const tilt_lens::Rim& rim : rims)
+	static const std::vector<OpeningPoint> few = MakeRings(FEW), fine = MakeRings(FINE);
+	return rings == FEW ? few : fine;
+}
+
+const std::vector<std::array<double, 2>>& OpeningCover()
+{
+	static const std::vector<std::array<double, 2>> cover = MakeCover();
+	return cover;
+}
+
+double WidthAtRim(const OpeningView& view, double distance)
+{
+	const double at_pupil = std::sqrt(M_PI / COVER) * view.radius;
+	return distance > 0 ? at_pupil / view.lens.pupil_magnification : at_pupil * std::max(1 + distance / view.depth, 0.05);
+}
+
+double LightOfPoint(const OpeningView& view, double x, double y)
+{
+	const double dx = view.radius * x - view.X, dy = view.radius * y - view.Y, squared = dx * dx + dy * dy + view.depth * view.depth;
+	const double middle = view.X * view.X + view.Y * view.Y + view.depth * view.depth;
+	return middle * middle / (squared * squared);
+}
+
+OpeningRays::OpeningRays(const OpeningView& of) : view(of)
+{
+	for (const auto& [x, y] : OpeningCover())
 	{
-		double at_x, at_y;
-		if (rim.distance > 0)
-		{
-			const tilt_lens::PupilRay<double> object = tilt_lens::ObjectSideRay(view.lens, image);
-			at_x = object.x + rim.distance * object.slope_x;
-			at_y = object.y + rim.distance * object.slope_y;
-		}
-		else
-		{
-			at_x = image.x + rim.distance * image.slope_x;
-			at_y = image.y + rim.distance * image.slope_y;
-		}
-		if (std::hypot(at_x, at_y) > rim.radius)
-			return false;
+		image.push_back(tilt_lens::RayToSensor(view.radius * x, view.radius * y, view.X, view.Y, view.depth));
+		object.push_back(tilt_lens::ObjectSideRay(view.lens, image.back()));
 	}
-	return true;
 }
 
-}
-
-const std::vector<OpeningPoint>& OpeningPoints()
+std::vector<OpeningPoint> OpeningRays::Through(const std::vector<tilt_lens::Rim>& rims) const
 {
-	static const std::vector<OpeningPoint> points = Rings();
-	return points;
-}
-
-std::vector<OpeningPoint> OpeningThroughRims(const OpeningView& view, const std::vector<tilt_lens::Rim>& rims)
-{
-	if (rims.empty())
-		return OpeningPoints();
-	static const Cover cover = MakeCover();
-	std::vector<OpeningPoint> left(OpeningPoints().size(), { 0, 0, 0 });
-	for (const Cover::Small& small : cover.all)
-		if (Passes(view, rims, small.x, small.y))
-		{
-			OpeningPoint& l = left[small.part];
-			l = { l.x + small.x, l.y + small.y, l.weight + 1 };
-		}
+	const std::vector<OpeningPoint>& all = OpeningPoints(view.rings);
+	const Parts& parts = PartsOf(view.rings);
+	std::vector<double> width;
+	for (const tilt_lens::Rim& rim : rims)
+		width.push_back(WidthAtRim(view, rim.distance));
+	std::vector<OpeningPoint> left(all.size(), { 0, 0, 0 });
+	for (size_t k = 0; k < image.size(); ++k)
+	{
+		double open = 1;
+		for (size_t i = 0; i < rims.size() && open > 0; ++i)
+			open *= PartWithin(HeightAtRim(object[k], image[k], rims[i].distance), rims[i].radius, width[i]);
+		OpeningPoint& l = left[parts.of[k]];
+		l = { l.x + open * OpeningCover()[k][0], l.y + open * OpeningCover()[k][1], l.weight + open };
+	}
 	std::vector<OpeningPoint> points;
 	double sum = 0;
 	for (size_t i = 0; i < left.size(); ++i)
 		if (left[i].weight > 0)
 		{
-			const OpeningPoint &whole = OpeningPoints()[i], &m = cover.middle[i], &l = left[i];
+			const OpeningPoint &whole = all[i], &m = parts.middle[i], &l = left[i];
 			points.push_back({ whole.x + l.x / l.weight - m.x, whole.y + l.y / l.weight - m.y, whole.weight * l.weight / m.weight });
 			sum += points.back().weight;
 		}
 	if (points.empty())
-		return OpeningPoints();
+		return all;
 	for (OpeningPoint& p : points)
 		p.weight /= sum;
 	return points;
+}
+
+std::vector<OpeningPoint> OpeningThroughRims(const OpeningView& view, const std::vector<tilt_lens::Rim>& rims)
+{
+	return rims.empty() ? OpeningPoints(view.rings) : OpeningRays(view).Through(rims);
 }
 
 }

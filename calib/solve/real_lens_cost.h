@@ -31,6 +31,9 @@ namespace real_lens
 enum State { NX, NY, W, CX, CY, STATE_SIZE };
 /// Of the lens: its power in units of 1/px of image distance (power times pitch), m, radius of the opening as the entrance pupil's in units of r, floor^2 in px^2.
 enum Lens { POWER, MAGNIFICATION, OPENING, FLOOR_SQUARED, LENS_SIZE };
+/// Of each rim in turn: logarithms of its radius and of its distance, mm.
+enum Rims { LOG_RADIUS, LOG_DISTANCE, RIM_SIZE };
+const int MOST_RIMS = 2, RIMS_SIZE = MOST_RIMS * RIM_SIZE;
 
 }
 
@@ -99,6 +102,9 @@ struct RealLensEdge
 	double floor_in_response = 0;    ///< px^2, of floor^2, that `response` has already
 	std::vector<OpeningPoint> points;
 	std::vector<double> px_per_mm;   ///< how far the crossing lies in the picture per mm on the board, of every point
+	/// The points are those that these rims leave; what other rims do to place and soft diameter, to first order.
+	std::array<double, real_lens::RIMS_SIZE> at_rims{};
+	std::array<std::array<double, real_lens::RIMS_SIZE>, 2> by_rims{};
 
 	/// On the board, mm from the edge's line, of the ray through a point of the opening.
 	template<typename T>
@@ -112,7 +118,7 @@ struct RealLensEdge
 	}
 
 	template<typename T>
-	bool See(const T* state, const T* pose, const T* centre, const T* lens, const T* c, T* seen) const
+	bool See(const T* state, const T* pose, const T* centre, const T* lens, const T* c, const T* rims, T* seen) const
 	{
 		T R[9];
 		ceres::AngleAxisToRotationMatrix(pose, R);
@@ -134,6 +140,9 @@ struct RealLensEdge
 		}
 		seen[0] = place;
 		seen[1] = soft - T(soft_of_disc) + T(soft_by_floor) * (lens[real_lens::FLOOR_SQUARED] - T(floor_in_response));
+		for (size_t i = 0; i < 2; ++i)
+			for (size_t k = 0; k < at_rims.size(); ++k)
+				seen[i] += T(by_rims[i][k]) * (rims[k] - T(at_rims[k]));
 		return true;
 	}
 };

@@ -2,6 +2,7 @@
 
 #include "solve/real_lens_fit.h"
 
+#include "base/robust.h"
 #include "edge/soft_radius.h"
 #include "model/footprint.h"
 #include "solve/block_covariance.h"
@@ -22,7 +23,8 @@ namespace
 {
 
 using namespace real_lens;
-using RealLensCost = ceres::AutoDiffCostFunction<struct WeightedRealLensEdge, 2, STATE_SIZE, 6, 3, LENS_SIZE, tilt_lens::AberrationTerms>;
+using RealLensCost = ceres::AutoDiffCostFunction<struct WeightedRealLensEdge, 2, STATE_SIZE, 6, 3, LENS_SIZE, tilt_lens::AberrationTerms, RIMS_SIZE>;
+using RealLensLightCost = ceres::AutoDiffCostFunction<RealLensPatches, ceres::DYNAMIC, STATE_SIZE, LENS_SIZE, tilt_lens::AberrationTerms, RIMS_SIZE, 2>;
 
 struct WeightedRealLensEdge
 {
@@ -30,9 +32,9 @@ struct WeightedRealLensEdge
 	double of_place, of_blur;
 
 	template<typename T>
-	bool operator()(const T* state, const T* pose, const T* centre, const T* lens, const T* c, T* residual) const
+	bool operator()(const T* state, const T* pose, const T* centre, const T* lens, const T* c, const T* rims, T* residual) const
 	{
-		edge.See(state, pose, centre, lens, c, residual);
+		edge.See(state, pose, centre, lens, c, rims, residual);
 		residual[0] *= T(of_place);
 		residual[1] *= T(of_blur);
 		return true;
@@ -40,14 +42,14 @@ struct WeightedRealLensEdge
 };
 
 /// What the sum over the opening's points misses of the mean over the disc that was fitted, whichever way it lies.
-double MissOfDisc(const FitResponse& response, double diameter)
+double MissOfDisc(const FitResponse& response, double diameter, Rings rings)
 {
 	const int directions = 12, fine = 400;
 	double coarse = 0, exact = 0;
 	for (int d = 0; d < directions; ++d)
 	{
 		const double a = 2 * M_PI * d / directions, cosine = std::cos(a), sine = std::sin(a);
-		for (const OpeningPoint& p : OpeningPoints())
+		for (const OpeningPoint& p : OpeningPoints(rings))
 			coarse += p.weight * response.Soft(0.5 * diameter * (p.x * cosine + p.y * sine)).value / directions;
 	}
 	// Chebyshev's points of the second kind: the chords of a disc are their weights.
@@ -68,18 +70,70 @@ RealLensEdge EdgeOf(const RealLensFit& fit, const Edge& e, const RealLensNumbers
 	const double reach = e.reach > 0 ? e.reach : 0.7 * std::abs(e.blur) + 3, dark = e.high > e.low ? e.low / (e.high - e.low) : 0;
 	RealLensEdge edge{ task.board.X(e.board_column), task.board.Y(e.board_row), e.along_columns, e.x, e.y, normal[0], normal[1], x.r, task.pitch_mm,
 		FitResponse(normal[0], normal[1], e.blur, reach, floor_squared / 16, dark), 0, (SoftDiameterOfSquare(squared + h) - SoftDiameterOfSquare(squared - h)) / (2 * h), floor_squared, {}, {} };
-	edge.soft_of_disc = MissOfDisc(edge.response, std::sqrt(std::max(squared - x.lens[FLOOR_SQUARED], 0.0)));
+	edge.soft_of_disc = MissOfDisc(edge.response, std::sqrt(std::max(squared - x.lens[FLOOR_SQUARED], 0.0)), fit.rings);
 	const auto mounted = [&](double t) { return MountedLens<double>(x.states[s].data(), x.lens.data(), x.c.data(), x.r, task.pitch_mm, e.x + t * normal[0], e.y + t * normal[1]); };
 	const double step = 0.5;   // px
 	const MountedLens<double> at = mounted(0), before = mounted(-step), behind = mounted(step);
 	const double *const pose = x.PoseOf(s, p).data(), *const centre = x.centres[s].data();
 	double R[9];
 	ceres::AngleAxisToRotationMatrix(pose, R);
-	edge.points = OpeningThroughRims({ at.lens, x.r * x.lens[OPENING] * x.lens[MAGNIFICATION], at.x, at.y, at.depth }, fit.rims);
-	for (const OpeningPoint& point : edge.points)
-		edge.px_per_mm.push_back(2 * step / (edge.FromLine(behind, pose, R, centre, x.lens.data(), point) - edge.FromLine(before, pose, R, centre, x.lens.data(), point)));
+	const auto open = [&](const std::vector<OpeningPoint>& points)
+	{
+		edge.points = points;
+		edge.px_per_mm.clear();
+		for (const OpeningPoint& point : edge.points)
+			edge.px_per_mm.push_back(2 * step / (edge.FromLine(behind, pose, R, centre, x.lens.data(), point) - edge.FromLine(before, pose, R, centre, x.lens.data(), point)));
+	};
+	edge.at_rims = x.rims;
+	if (x.sides.empty())
+	{
+		open(OpeningPoints(fit.rings));
+		return edge;
+	}
+	const OpeningRays rays({ at.lens, x.r * x.lens[OPENING] * x.lens[MAGNIFICATION], at.x, at.y, at.depth, fit.rings });
+	const auto seen = [&](const RealLensNumbers& numbers)
+	{
+		open(rays.Through(numbers.Rims()));
+		std::array<double, 2> place_and_soft;
+		edge.See(x.states[s].data(), pose, centre, x.lens.data(), x.c.data(), x.rims.data(), place_and_soft.data());
+		return place_and_soft;
+	};
+	if (x.rims_free)
+	{
+		std::array<std::array<double, RIMS_SIZE>, 2> by_rims{};
+		for (size_t k = 0; k < RIM_SIZE * x.sides.size(); ++k)
+		{
+			const double h = 0.02;
+			RealLensNumbers more, less;
+			more.sides = less.sides = x.sides;
+			more.rims = less.rims = x.rims;
+			more.rims[k] += h;
+			less.rims[k] -= h;
+			const std::array<double, 2> above = seen(more), below = seen(less);
+			for (size_t i = 0; i < 2; ++i)
+				by_rims[i][k] = (above[i] - below[i]) / (2 * h);
+		}
+		edge.by_rims = by_rims;
+	}
+	open(rays.Through(x.Rims()));
 	return edge;
 }
+
+struct Likely
+{
+	double about, sigma;
+	int at;
+
+	template<typename T>
+	bool operator()(const T* block, T* residual) const
+	{
+		residual[0] = (block[at] - T(about)) / T(sigma);
+		return true;
+	}
+};
+
+/// The rims start from where a thin lens has them, which is right but for a factor of two or so.
+const double SIGMA_OF_LOG_RIM = 0.7;
 
 /// Holds the numbers of a block that are not free.
 void Hold(ceres::Problem& problem, double* block, int size, const std::vector<int>& held)
@@ -88,6 +142,37 @@ void Hold(ceres::Problem& problem, double* block, int size, const std::vector<in
 		problem.SetParameterBlockConstant(block);
 	else if (!held.empty())
 		problem.SetManifold(block, new ceres::SubsetManifold(size, held));
+}
+
+template<int Size>
+void AddLikely(double* block, int at, double about, double sigma, ceres::Problem& problem)
+{
+	problem.AddResidualBlock(new ceres::AutoDiffCostFunction<Likely, 1, Size>(new Likely{ about, sigma, at }), nullptr, block);
+}
+
+void AddWhatIsLikely(const RealLensFit& fit, RealLensNumbers& x, ceres::Problem& problem)
+{
+	for (int k = 0; k < tilt_lens::AberrationTerms; ++k)
+		if (x.free[size_t(k)] && fit.likely_c[size_t(k)] > 0)
+			AddLikely<tilt_lens::AberrationTerms>(x.c.data(), k, 0, fit.likely_c[size_t(k)], problem);
+	for (int k = 0; x.rims_free && k < RIM_SIZE * int(x.sides.size()); ++k)
+		AddLikely<RIMS_SIZE>(x.rims.data(), k, fit.rims_about[size_t(k)], SIGMA_OF_LOG_RIM, problem);
+}
+
+void AddLight(const RealLensFit& fit, RealLensNumbers& x, ceres::Problem& problem, std::vector<PhotographBlocks>& photographs)
+{
+	for (const RealLensExposure& exposure : fit.exposures)
+	{
+		double* const gradient = x.gradients[exposure.lit_alike ? *exposure.photo : 0].data();
+		const ceres::ResidualBlockId id = problem.AddResidualBlock(new RealLensLightCost(new RealLensPatches(exposure.light), int(exposure.light.patches.size())), nullptr,
+			x.states[exposure.state].data(), x.lens.data(), x.c.data(), x.rims.data(), gradient);
+		if (!exposure.lit_alike)
+			problem.SetParameterBlockConstant(gradient);
+		if (exposure.photo)
+			for (PhotographBlocks& p : photographs)
+				if (p.group == exposure.state && p.pose == x.PoseOf(exposure.state, *exposure.photo).data())
+					p.beside.push_back(id);
+	}
 }
 
 /// Of edges that outlive the problem. Returns the photographs, each with the pose that is its own unless poses are shared.
@@ -101,16 +186,24 @@ std::vector<PhotographBlocks> Build(const RealLensFit& fit, const std::vector<Re
 		if (photographs.empty() || photographs.back().pose != pose)
 			photographs.push_back({ {}, pose, s });
 		auto* const cost = new WeightedRealLensEdge{ edges[k++], 1 / std::hypot(e.offset_sigma, fit.error.offset), 1 / std::hypot(e.blur_sigma, fit.error.blur) };
-		photographs.back().residuals.push_back(problem.AddResidualBlock(new RealLensCost(cost), new ceres::HuberLoss(2.5 * std::sqrt(2.0)), x.states[s].data(), pose, x.centres[s].data(), x.lens.data(), x.c.data()));
+		photographs.back().residuals.push_back(problem.AddResidualBlock(new RealLensCost(cost), new ceres::HuberLoss(2.5 * std::sqrt(2.0)), x.states[s].data(), pose, x.centres[s].data(), x.lens.data(), x.c.data(), x.rims.data()));
 	});
+	if (!x.lens_held)
+		AddLight(fit, x, problem, photographs);
+	AddWhatIsLikely(fit, x, problem);
 	std::vector<int> held;
 	for (int term = 0; term < tilt_lens::AberrationTerms; ++term)
 		if (!x.free[size_t(term)])
 			held.push_back(term);
 	Hold(problem, x.c.data(), tilt_lens::AberrationTerms, held);
 	Hold(problem, x.lens.data(), LENS_SIZE, x.magnification_free ? std::vector<int>{} : std::vector<int>{ MAGNIFICATION });
+	held.clear();
+	for (int k = 0; k < RIMS_SIZE; ++k)
+		if (!x.rims_free || k >= RIM_SIZE * int(x.sides.size()))
+			held.push_back(k);
+	Hold(problem, x.rims.data(), RIMS_SIZE, held);
 	if (x.lens_held)
-		for (const double* const block : { x.lens.data(), x.c.data() })
+		for (const double* const block : { x.lens.data(), x.c.data(), x.rims.data() })
 			problem.SetParameterBlockConstant(block);
 	for (size_t s = 0; s < x.states.size(); ++s)
 		if (x.lens_held || (s == 0 && !fit.task.untilted_free))
@@ -123,7 +216,7 @@ std::vector<PhotographBlocks> Build(const RealLensFit& fit, const std::vector<Re
 
 std::vector<const double*> SharedBlocks(const RealLensNumbers& x)
 {
-	std::vector<const double*> blocks{ x.lens.data(), x.c.data() };
+	std::vector<const double*> blocks{ x.lens.data(), x.c.data(), x.rims.data() };
 	for (const auto& state : x.states)
 		blocks.push_back(state.data());
 	return blocks;
@@ -131,9 +224,24 @@ std::vector<const double*> SharedBlocks(const RealLensNumbers& x)
 
 }
 
-RealLensNumbers StartOfRealLens(const Task& task, const Geometry& geometry, const Solution& thin)
+std::vector<tilt_lens::Rim> RealLensNumbers::Rims() const
+{
+	std::vector<tilt_lens::Rim> all;
+	for (size_t k = 0; k < sides.size(); ++k)
+		all.push_back({ std::exp(rims[RIM_SIZE * k + LOG_RADIUS]), sides[k] * std::exp(rims[RIM_SIZE * k + LOG_DISTANCE]) });
+	return all;
+}
+
+RealLensNumbers StartOfRealLens(const Task& task, const Geometry& geometry, const Solution& thin, const std::vector<tilt_lens::Rim>& rims)
 {
 	RealLensNumbers x;
+	for (size_t k = 0; k < rims.size() && k < size_t(MOST_RIMS); ++k)
+	{
+		x.sides.push_back(rims[k].distance > 0 ? 1 : -1);
+		x.rims[RIM_SIZE * k + LOG_RADIUS] = std::log(rims[k].radius);
+		x.rims[RIM_SIZE * k + LOG_DISTANCE] = std::log(std::abs(rims[k].distance));
+	}
+	x.gradients.assign(std::max<size_t>(1, task.states[0].photos.size()), { 0, 0 });
 	double power = 0;
 	for (size_t s = 0; s < task.states.size(); ++s)
 	{
@@ -172,7 +280,7 @@ std::vector<std::array<double, 2>> RealLensFit::Residuals(const std::vector<Real
 	ForEachEdge(task, [&](size_t s, size_t p, const Edge&)
 	{
 		double seen[2];
-		edges[all.size()].See(x.states[s].data(), x.PoseOf(s, p).data(), x.centres[s].data(), x.lens.data(), x.c.data(), seen);
+		edges[all.size()].See(x.states[s].data(), x.PoseOf(s, p).data(), x.centres[s].data(), x.lens.data(), x.c.data(), x.rims.data(), seen);
 		all.push_back({ seen[0], seen[1] });
 	});
 	return all;
@@ -182,7 +290,7 @@ bool RealLensFit::Minimise(const std::vector<RealLensEdge>& edges, RealLensNumbe
 {
 	ceres::Problem problem;
 	Build(*this, edges, x, problem);
-	LeastSquares how{ ceres::DENSE_SCHUR, 200, coarse ? 1e-4 : 1e-7 };
+	LeastSquares how{ ceres::DENSE_SCHUR, 300, coarse ? 1e-4 : 1e-6 };
 	how.threads = AllThreads();
 	return SolveLeastSquares(how, problem).has_value();
 }
@@ -208,46 +316,33 @@ std::optional<RealLensFit::Judged> RealLensFit::Judge(const std::vector<RealLens
 	return judged;
 }
 
-/// From the same numbers with poses of each state's own; none where they do not converge.
-std::optional<RealLensNumbers> AboutSharedPoses(const RealLensFit& fit, const std::vector<RealLensEdge>& edges, const Geometry& geometry, RealLensNumbers x)
+double RealLensFit::ErrorOfLight(const RealLensNumbers& x) const
 {
-	x.shared_poses = x.lens_held = true;
-	for (size_t s = 1; s < x.states.size(); ++s)
+	std::vector<double> residuals;
+	for (const RealLensExposure& exposure : exposures)
 	{
-		const Vec3<double>& centre = geometry.states[s].lens_centre;
-		x.centres[s] = { centre.x, centre.y, centre.z };
+		const RealLensPatches& light = exposure.light;
+		const size_t n = light.patches.size();
+		Eigen::VectorXd r{ long(n) };
+		light.See(x.states[exposure.state].data(), x.lens.data(), x.c.data(), x.rims.data(), x.gradients[exposure.lit_alike ? *exposure.photo : 0].data(), r.data());
+		for (size_t i = 0; i < n; ++i)
+			r[long(i)] *= light.patches[i].weight;
+		r -= light.basis * (light.basis.transpose() * r);
+		for (size_t i = 0; i < n; ++i)
+			residuals.push_back(r[long(i)] / light.patches[i].weight);
 	}
-	return fit.Minimise(edges, x, false) ? std::optional(x) : std::nullopt;
+	return residuals.empty() ? 0 : std::max(RobustSigma(std::move(residuals)), 1e-4);
 }
 
-std::optional<RealLensAnswer> SolveRealLens(const Task& task, const Geometry& geometry, const Solution& thin, const std::vector<tilt_lens::Rim>& rims)
+void RealLensFit::LearnLight(const RealLensNumbers& x)
 {
-	RealLensAnswer answer;
-	RealLensNumbers& x = answer.numbers;
-	x = StartOfRealLens(task, geometry, thin);
-	for (int k = 0; k < tilt_lens::ThirdOrderTerms; ++k)
-		x.free[size_t(k)] = true;
-	x.magnification_free = true;
-	RealLensFit fit{ task, rims, {} };
-	const int rounds = 4;
-	std::vector<RealLensEdge> edges = fit.EdgesAbout(x);
-	for (int round = 0; round < rounds; ++round)
+	// The weights say what is projected out: twice.
+	for (int round = 0; round < 2; ++round)
 	{
-		// Each round is built about the last one's answer, and knows better what the lens leaves out.
-		fit.error = ErrorOf(fit.Residuals(edges, x));
-		if (!fit.Minimise(edges, x, round + 1 < rounds))
-			return std::nullopt;
-		edges = fit.EdgesAbout(x);
+		for (RealLensExposure& exposure : exposures)
+			Weigh(light_error, exposure);
+		light_error = std::max(ErrorOfLight(x), 1e-4);
 	}
-	answer.error = ErrorOf(fit.Residuals(edges, x));
-	fit.error = answer.error;
-	const std::optional<RealLensFit::Judged> judged = fit.Judge(edges, x);
-	if (!judged)
-		return std::nullopt;
-	answer.judged = *judged;
-	if (geometry.shared_poses)
-		answer.about_shared_poses = AboutSharedPoses(fit, edges, geometry, x);
-	return answer;
 }
 
 }

@@ -6,7 +6,7 @@
 #define TILTCAL_REAL_LENS_FIT_H
 
 #include "solve/joint_fit.h"
-#include "solve/real_lens_cost.h"
+#include "solve/real_lens_light.h"
 
 #include <optional>
 #include <vector>
@@ -25,35 +25,48 @@ struct RealLensNumbers
 	std::array<double, real_lens::LENS_SIZE> lens{};
 	std::array<double, tilt_lens::AberrationTerms> c{};   ///< mm
 	double r = 0;                                         ///< mm
+	std::array<double, real_lens::RIMS_SIZE> rims{};      ///< of those that `sides` has
+	RimSides sides;
+	std::vector<std::array<double, 2>> gradients;         ///< of the lighting of the photographs that are lit alike, by their number
+	bool rims_free = false;
 	std::array<bool, tilt_lens::AberrationTerms> free{};  ///< which of c the fit may change
 	bool magnification_free = false;
 	bool lens_held = false;                               ///< the lens and the states' tilts
 
+	std::vector<tilt_lens::Rim> Rims() const;
 	Pose& PoseOf(size_t s, size_t p) { return poses[shared_poses ? 0 : s][p]; }
 	const Pose& PoseOf(size_t s, size_t p) const { return poses[shared_poses ? 0 : s][p]; }
 };
 
 /// From the thin lens that was found: its poses, planes and aperture; no aberrations.
-RealLensNumbers StartOfRealLens(const Task& task, const Geometry& geometry, const Solution& thin);
+RealLensNumbers StartOfRealLens(const Task& task, const Geometry& geometry, const Solution& thin, const std::vector<tilt_lens::Rim>& rims);
 
 struct RealLensFit
 {
 	const Task& task;
-	std::vector<tilt_lens::Rim> rims;
-	ModelError error;
+	Rings rings = FEW;
+	ModelError error{};
+	double light_error = 0.02;             ///< what the model leaves out of the logarithm of a patch's light
+	std::vector<RealLensExposure> exposures{};
+	/// Standard deviations of what is known of the numbers before: of c, about 0, and of the rims, about `rims_about`; 0: nothing is known.
+	std::array<double, tilt_lens::AberrationTerms> likely_c{};
+	std::array<double, real_lens::RIMS_SIZE> rims_about{};
 
 	/// Every edge, linear about these numbers, state by state; what the others take.
 	std::vector<RealLensEdge> EdgesAbout(const RealLensNumbers& x) const;
 
 	/// As JointFit's.
 	std::vector<std::array<double, 2>> Residuals(const std::vector<RealLensEdge>& edges, const RealLensNumbers& x) const;
+	double ErrorOfLight(const RealLensNumbers& x) const;
+	/// `light_error` becomes what is left over, and the patches count so.
+	void LearnLight(const RealLensNumbers& x);
 	bool Minimise(const std::vector<RealLensEdge>& edges, RealLensNumbers& x, bool coarse) const;
 
 	/// Sigmas in the shape of the numbers themselves, by the edges and by the photographs; and what each photograph is predicted to by the
 	/// others, its pose being its own: the RMS of all residuals, in their sigmas.
 	struct Judged
 	{
-		Eigen::MatrixXd by_edges;                    ///< of lens, c and the states one after the other
+		Eigen::MatrixXd by_edges;                    ///< of lens, c, rims and the states one after the other
 		std::optional<Eigen::MatrixXd> by_photographs;
 		double held_out = 0;                         ///< 0: cannot be had
 	};
@@ -69,11 +82,19 @@ struct RealLensAnswer
 	std::optional<RealLensNumbers> about_shared_poses;
 	ModelError error;
 	RealLensFit::Judged judged;
+	double held_out_before = 0;   ///< of FitSceneLens: of the lens that it began with, in the same units
 };
 
 /// The six third-order aberrations, m, the glass's power and every state's attitude, distance and principal point, from the thin lens on. `rims`: what
-/// vignettes, as lens/optical_vignetting.h has it. None: no convergence, or singular.
+/// vignettes, as lens/optical_vignetting.h has it; at most MOST_RIMS of them. None: no convergence, or singular.
 std::optional<RealLensAnswer> SolveRealLens(const Task& task, const Geometry& geometry, const Solution& thin, const std::vector<tilt_lens::Rim>& rims);
+
+/// The ten of the fifth order too, and the rims, which the light tells together with the edges, from SolveRealLens' answer on.
+std::optional<RealLensAnswer> SolveSceneLens(const Task& task, const Geometry& geometry, const RealLensNumbers& six);
+
+/// Standard deviations of the fifth-order numbers, mm, 0 before them: at the rim of lens and picture, where the slope is `slope`, a term is likely no more than
+/// those terms of the third order are from which it comes by one more P, R or Q.
+std::array<double, tilt_lens::AberrationTerms> LikelyFifthOrder(const std::array<double, tilt_lens::AberrationTerms>& c, double slope);
 
 }
 

@@ -21,7 +21,7 @@ namespace
 using namespace real_lens;
 
 /// Where a state's numbers begin among those of RealLensFit::Judged.
-int PlaceOfState(size_t s) { return LENS_SIZE + tilt_lens::AberrationTerms + STATE_SIZE * int(s); }
+int PlaceOfState(size_t s) { return LENS_SIZE + tilt_lens::AberrationTerms + RIMS_SIZE + STATE_SIZE * int(s); }
 
 /// q (1/mm) and image distance (mm) of the thin lens that does near its axis what this one does.
 Eigen::Vector4d ThinLensOf(const Eigen::VectorXd& state, const Eigen::VectorXd& lens, double pitch_mm)
@@ -87,22 +87,13 @@ RealLensState StateOf(const RealLensAnswer& answer, size_t s, size_t photographs
 	return state;
 }
 
-}
-
-RealLens FindRealLens(const Task& task, const Geometry& geometry, const Solution& thin, const std::vector<tilt_lens::Rim>& rims)
+RealLens Described(const Task& task, const RealLensAnswer& answer)
 {
 	RealLens found;
-	const Stopwatch time;
-	const std::optional<RealLensAnswer> answer = SolveRealLens(task, geometry, thin, rims);
-	if (!answer)
-	{
-		found.failure = "the fit did not converge, or the photographs do not tell its numbers apart: photograph more inclined boards, sharp in one part and blurred in another, to the picture's corners";
-		return found;
-	}
-	const RealLensNumbers& x = answer->numbers;
+	const RealLensNumbers& x = answer.numbers;
 	std::vector<double> sigma;
 	for (int k = 0; k < PlaceOfState(task.states.size()); ++k)
-		sigma.push_back(std::sqrt(std::max({ answer->judged.by_edges(k, k), answer->judged.by_photographs ? (*answer->judged.by_photographs)(k, k) : 0, 0. })));
+		sigma.push_back(std::sqrt(std::max({ answer.judged.by_edges(k, k), answer.judged.by_photographs ? (*answer.judged.by_photographs)(k, k) : 0, 0. })));
 	const double board = task.board.square_sigma_mm / task.board.square_mm;
 	const double f = task.pitch_mm / x.lens[POWER], d = 2 * x.r * x.lens[OPENING];
 	found.focal_length_mm = { f, f * sigma[POWER] / x.lens[POWER] };
@@ -110,15 +101,46 @@ RealLens FindRealLens(const Task& task, const Geometry& geometry, const Solution
 	found.aperture_diameter_mm = { d, std::hypot(2 * x.r * sigma[OPENING], board * d) };
 	found.psf_floor_squared = { x.lens[FLOOR_SQUARED], sigma[FLOOR_SQUARED] };
 	found.radius_mm = x.r;
+	const std::vector<tilt_lens::Rim> found_rims = x.Rims();
+	for (size_t k = 0; x.rims_free && k < found_rims.size(); ++k)
+	{
+		const size_t at = size_t(LENS_SIZE + tilt_lens::AberrationTerms) + RIM_SIZE * k;
+		found.rims.push_back({ { found_rims[k].radius, found_rims[k].radius * sigma[at + LOG_RADIUS] }, { found_rims[k].distance, std::abs(found_rims[k].distance) * sigma[at + LOG_DISTANCE] } });
+	}
+	found.fifth_order = x.free[tilt_lens::ThirdOrderTerms];
 	for (size_t k = 0; k < found.aberrations_mm.size(); ++k)
 		found.aberrations_mm[k] = { x.c[k], sigma[LENS_SIZE + k] };
 	for (size_t s = 0; s < task.states.size(); ++s)
-		found.states.push_back(StateOf(*answer, s, task.states[s].photos.size(), task.pitch_mm, sigma));
-	found.rms_place = answer->error.offset;
-	found.rms_blur = answer->error.blur;
-	found.held_out = answer->judged.held_out;
-	found.held_out_thin = HeldOutOf(task, geometry, thin, answer->error);
-	found.seconds = time.Seconds();
+		found.states.push_back(StateOf(answer, s, task.states[s].photos.size(), task.pitch_mm, sigma));
+	found.rms_place = answer.error.offset;
+	found.rms_blur = answer.error.blur;
+	found.held_out = answer.judged.held_out;
+	return found;
+}
+
+}
+
+RealLenses FindRealLens(const Task& task, const Geometry& geometry, const Solution& thin, const std::vector<tilt_lens::Rim>& rims)
+{
+	RealLenses found;
+	const Stopwatch time;
+	const std::optional<RealLensAnswer> six = SolveRealLens(task, geometry, thin, rims);
+	if (!six)
+	{
+		found.tilts.failure = "the fit did not converge, or the photographs do not tell its numbers apart: photograph more inclined boards, sharp in one part and blurred in another, to the picture's corners";
+		return found;
+	}
+	found.tilts = Described(task, *six);
+	found.tilts.held_out_thin = HeldOutOf(task, geometry, thin, six->error);
+	found.tilts.seconds = time.Seconds();
+	const Stopwatch more;
+	const std::optional<RealLensAnswer> sixteen = SolveSceneLens(task, geometry, six->numbers);
+	if (sixteen && (!geometry.shared_poses || sixteen->about_shared_poses))
+	{
+		found.scene = Described(task, *sixteen);
+		found.scene->held_out_thin = sixteen->held_out_before;
+		found.scene->seconds = more.Seconds();
+	}
 	return found;
 }
 

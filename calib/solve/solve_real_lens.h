@@ -7,13 +7,21 @@
 
 #include "lens/optical_vignetting.h"
 
+#include <optional>
 #include <vector>
 
 namespace tiltcal
 {
 
+/// What is found of one lens's glass.
+struct RealLenses
+{
+	RealLens tilts;                  ///< six numbers
+	std::optional<RealLens> scene;   ///< sixteen, and the rims; where it converges. `held_out_thin` of it is that of `tilts` in its own units
+};
+
 /// One real lens for all states, from the thin lens on; `rims`: what vignettes. Where there is no answer, its failure says so.
-RealLens FindRealLens(const Task& task, const Geometry& geometry, const Solution& thin, const std::vector<tilt_lens::Rim>& rims);
+RealLenses FindRealLens(const Task& task, const Geometry& geometry, const Solution& thin, const std::vector<tilt_lens::Rim>& rims);
 
 }
 

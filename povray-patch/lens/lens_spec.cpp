@@ -82,6 +82,8 @@ void CheckRanges(const LensSpec& spec)
 		Refuse("tilt_lens: focal_distance must not be 0: the plane of focus would pass through the lens centre.");
 	if(spec.seed && !((spec.seed.value >= 0.0) && (spec.seed.value <= 4294967295.0) && (spec.seed.value == std::floor(spec.seed.value))))
 		Refuse("tilt_lens: seed must be a whole number from 0 to 4294967295, but is %g.", spec.seed.value);
+	if(spec.show_width && !(spec.show_width.value >= 1.0 && spec.show_width.value <= 1e6))
+		Refuse("tilt_lens: the width behind show focus is that of the picture to come, from 1 to 1e6 pixels, but is %g.", spec.show_width.value);
 	if(spec.focal_point)
 		RequireFinite("focal_point", spec.focal_point.value);
 	if(spec.focal_plane_point)
@@ -362,6 +364,19 @@ void Resolve(const LensSpec& spec, const CameraVectors& camera, TiltLens& lens)
 	ResolveEffects(spec, camera, lens);
 }
 
+}
+
+void LensSpec::Take_Words_Around(const LensSpec& before)
+{
+	const bool states_distance = focal_plane_point || focal_points[0] || focal_distance || (lens_tilt && focal_length && image_distance);
+
+	angle_given = before.angle_given;
+	right_given = before.right_given;
+	look_at = before.look_at;
+	if(!states_distance)
+		focal_point = before.focal_point;
+	if(!aperture_diameter && !f_stop)
+		aperture = before.aperture;
 }
 
 double TiltLens::Kappa(const Vec3d& v) const

@@ -86,6 +86,7 @@ struct LensSpec
 	// The preview of focus.
 	bool show_focus = false;
 	bool show_plane = false;
+	Given<double> show_width;           ///< of the picture whose pixels `show focus` counts; else this one's
 
 	// Words outside the block. The points move with the camera's transformations.
 	bool angle_given = false;
@@ -93,6 +94,10 @@ struct LensSpec
 	Given<Vec3d> focal_point;
 	Given<Vec3d> look_at;
 	double aperture = 0.0;              ///< POV-Ray's word: a lens of diameter A/2
+
+	/// The words outside the block are those of the camera whose lens was `before` and is this one now. What
+	/// the block says is later: words that it contradicts are dropped.
+	void Take_Words_Around(const LensSpec& before);
 
 	/// The window right x up is the sensor itself, at the image distance; otherwise it
 	/// only says the field of view.

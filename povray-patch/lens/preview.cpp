@@ -52,6 +52,11 @@ Rgb ShowFocus(const Rgb& scene, const PixelFocus& pixel, double aperture_diamete
 	return Mix({ dim, dim, dim }, blur > 0.0 ? Nearer : Farther, 0.06);
 }
 
+Rgb ShowLabel(FocusLabels::Paint paint, bool nearer)
+{
+	return paint == FocusLabels::Ink ? Rgb{ 1.0, 1.0, 1.0 } : Mix({ 0.0, 0.0, 0.0 }, nearer ? Nearer : Farther, 0.45);
+}
+
 Rgb ShowPlane(const Rgb& scene, const PixelFocus& pixel)
 {
 	if(pixel.empty)

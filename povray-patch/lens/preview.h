@@ -7,6 +7,7 @@
 #ifndef TILT_LENS_PREVIEW_H
 #define TILT_LENS_PREVIEW_H
 
+#include "lens/focus_labels.h"
 #include "lens/lens_spec.h"
 
 namespace tilt_lens
@@ -23,7 +24,7 @@ struct PixelFocus
 {
 	double inverse_depth;       ///< 1/z of what the pixel sees, along the axis; 0 for the background
 	double kappa;               ///< inverse focus distance of the pixel
-	double pixels_per_slope;    ///< pixels per unit of v.x
+	double pixels_per_slope;    ///< pixels per unit of v.x, of the picture whose pixels count
 	bool empty;                 ///< the pixel looks along or behind the lens plane
 };
 
@@ -35,6 +36,9 @@ double BlurInPixels(const PixelFocus& pixel, double aperture_diameter);
 /// elsewhere, with contours where it is 2, 4, 8, ... pixels: blue nearer than the
 /// plane of focus, orange beyond it. Empty pixels are dark red.
 Rgb ShowFocus(const Rgb& scene, const PixelFocus& pixel, double aperture_diameter);
+
+/// What a label makes of a pixel that it covers.
+Rgb ShowLabel(FocusLabels::Paint paint, bool nearer);
 
 /// `show plane`: the plane of focus as a sheet of coloured glass, and its trace,
 /// where it cuts the scene, as a line one percent of the distance wide.

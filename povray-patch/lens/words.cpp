@@ -57,8 +57,8 @@ const WordRow Words[WordCount] =
 	  "asks all points of an area light for every ray, as stock does" },
 	{ Word::Seed, "seed", "", "N", &LensSpec::seed, Range::Own, "–",
 	  "which of the equally good sets of samples to take" },
-	{ Word::ShowFocus, "show", "focus", "", NULL, Range::Own, "–",
-	  "paints over the scene what is sharp" },
+	{ Word::ShowFocus, "show", "focus", "[WIDTH]", NULL, Range::Own, "pixels",
+	  "paints over the scene what is sharp, in pixels of a picture WIDTH wide" },
 	{ Word::ShowPlane, "show", "plane", "", NULL, Range::Own, "–",
 	  "paints the plane of focus over the scene" }
 };

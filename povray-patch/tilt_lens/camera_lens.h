@@ -19,6 +19,7 @@ namespace tilt_lens
 
 class DenoisedPicture;
 class PilotQueue;
+struct ShownLabels;
 class TileBorders;
 
 struct CameraLens
@@ -30,6 +31,7 @@ struct CameraLens
 
 	boost::shared_ptr<DenoisedPicture> denoised; ///< where the scene asks for it, else null
 	double bokeh_gain[3] = {};          ///< for red, green, blue: 1 over the mean of the bokeh pigment over the opening
+	boost::shared_ptr<ShownLabels> labels; ///< of `show focus`, else null
 	PilotRequest pilot;                 ///< what tiltcost asks for, instead of the picture
 	boost::shared_ptr<PilotQueue> pilot_queue; ///< its blocks
 

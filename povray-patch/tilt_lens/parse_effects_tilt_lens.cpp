@@ -195,7 +195,17 @@ void Parser::Parse_Tilt_Lens_Fifth_Order(double *numbers)
 	Parse_End();
 }
 
-/// show focus, show plane
+/// Whether the next token begins a number: no word of the block, which may be the name of a value too.
+bool Parser::Tilt_Lens_Number_Follows()
+{
+	Get_Token();
+	Unget_Token();
+	if (Token.Token_Id == FLOAT_FUNCT_TOKEN)
+		return (Token.Function_Id != SEED_TOKEN) && ((Token.Data == NULL) || (tilt_lens::FindWord(Token.Token_String) == NULL));
+	return (Token.Token_Id == LEFT_PAREN_TOKEN) || (Token.Token_Id == DASH_TOKEN) || (Token.Token_Id == PLUS_TOKEN);
+}
+
+/// show focus [WIDTH], show plane
 void Parser::Parse_Tilt_Lens_Show(LensSpec& spec)
 {
 	Get_Token();
@@ -203,7 +213,11 @@ void Parser::Parse_Tilt_Lens_Show(LensSpec& spec)
 	if (Token.Token_Id == PLANE_TOKEN)
 		spec.show_plane = true;
 	else if (Is_Tilt_Lens_Word(RowOf(Word::ShowFocus).option))
+	{
 		spec.show_focus = true;
+		if (Tilt_Lens_Number_Follows())
+			spec.show_width = Parse_Float();
+	}
 	else
 		Error("tilt_lens: show takes focus or plane.");
 }

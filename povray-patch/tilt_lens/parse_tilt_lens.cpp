@@ -16,6 +16,7 @@
 #include "backend/tilt_lens/camera_vectors.h"
 #include "backend/tilt_lens/denoised_picture.h"
 #include "backend/tilt_lens/pilot_queue.h"
+#include "backend/tilt_lens/shown_labels.h"
 #include "backend/tilt_lens/tile_borders.h"
 #include "lens/effects.h"
 #include "lens/words.h"
@@ -63,6 +64,22 @@ void Parser::Parse_Tilt_Lens(Camera& New)
 	}
 	Unget_Token();
 	Parse_End();
+}
+
+/// camera { DECLARED tilt_lens [ { WORDS } ] TRANSFORMATIONS }: another lens in the place of the declared camera's.
+void Parser::Parse_Tilt_Lens_Anew(Camera& New)
+{
+	const LensSpec before = New.Tilt_Lens.spec;
+
+	if (!before.enabled)
+		Error("The declared camera is no tilt_lens camera, and has no lens that tilt_lens could replace.\n"
+		      "Begin its declaration with tilt_lens, even without words.");
+	// What follows from the words is made when the camera ends.
+	if (!New.Tilt_Lens.borders)
+		Error("A camera has only one tilt_lens block.");
+	New.Tilt_Lens = tilt_lens::CameraLens();
+	Parse_Tilt_Lens(New);
+	New.Tilt_Lens.spec.Take_Words_Around(before);
 }
 
 /// One word of the block, which is the current token, and its value.
@@ -244,6 +261,8 @@ void Parser::Resolve_Tilt_Lens(Camera& New)
 		New.Blur_Samples = Default_Blur_Samples;
 	New.Tilt_Lens.levels = tilt_lens::SampleLevels(New.Blur_Samples_Min, New.Blur_Samples, New.Variance, New.Confidence, &chdtri);
 	New.Tilt_Lens.borders = boost::shared_ptr<tilt_lens::TileBorders>(new tilt_lens::TileBorders());
+	if (New.Tilt_Lens.spec.show_focus && !New.Tilt_Lens.lens.IsPinhole())
+		New.Tilt_Lens.labels = boost::shared_ptr<tilt_lens::ShownLabels>(new tilt_lens::ShownLabels());
 	if (New.Tilt_Lens.spec.denoise)
 		New.Tilt_Lens.denoised = boost::shared_ptr<tilt_lens::DenoisedPicture>(new tilt_lens::DenoisedPicture());
 	New.Tilt_Lens.pilot = tilt_lens::ParsePilotRequest(getenv(tilt_lens::PilotVariable));

@@ -11,10 +11,7 @@
 #include "backend/scene/objects.h"
 #include "backend/shape/planes.h"
 #include "backend/tilt_lens/bokeh.h"
-#include "backend/tilt_lens/camera_vectors.h"
-#include "lens/aberrated_lens.h"
 #include "lens/optics.h"
-#include "lens/preview.h"
 #include "backend/tilt_lens/sample_sums.h"
 #include "lens/pupil.h"
 
@@ -60,6 +57,7 @@ void TracePixel::SetupTiltLens()
 	else
 		addTiltLensSample = lens.splits ? &TracePixel::AddTiltLensSample<false, false, true> : &TracePixel::AddTiltLensSample<false, false, false>;
 	tiltLensTouchesInterior = InteriorTouchesTiltLens();
+	tiltLensLabels = NULL;
 	tiltLensMedia = NULL;   // tasks make theirs after the tracer: it is asked for later
 	// Made when first asked for, which would be too late to seed them. Subsurface light nests to depth 2.
 	for(int depth = 0; sceneData->useSubsurface && (depth <= 2); depth++)
@@ -303,43 +301,6 @@ void TracePixel::SampleTiltLensPixel(tilt_lens::TilePixel& pixel, int samples, D
 			tiltLensLightSamples.Draw(pixel.sampler.Light());
 		(this->*addTiltLensSample)(ray, pixel.sums, pixel.x + tiltLensSample.pixel_x - 0.5, pixel.y + tiltLensSample.pixel_y - 0.5, width, height);
 	}
-}
-
-/// The preview of focus: one ray through the lens centre, and paint over it.
-void TracePixel::ShowTiltLens(Colour& colour, DBL x, DBL y, DBL width, DBL height)
-{
-	const tilt_lens::CameraLens& camera_lens = camera.Tilt_Lens;
-	const tilt_lens::TiltLens& lens = camera_lens.lens;
-	tilt_lens::PixelFocus pixel = { 0.0, 0.0, width * Dot(lens.direction, lens.axis) / cameraLengthRight, true };
-	Ray ray;
-
-	colour.clear();
-	tiltLensSample = { 0.5, 0.5, 0.5, 0.5 };
-	if(CreateCameraRay(ray, x, y, width, height, 0))
-	{
-		Trace::TraceTicket ticket(maxTraceLevel, adcBailout, sceneData->outputAlpha);
-		const DBL distance = TraceRay(ray, colour, 1.0, ticket, false, camera.Max_Ray_Distance);
-		const Vec3d direction = { ray.Direction[X], ray.Direction[Y], ray.Direction[Z] };
-		const DBL slope = Dot(direction, lens.axis);
-
-		if(lens.aberrates)
-		{
-			const tilt_lens::CameraVectors vectors = Vectors_Of(camera);
-			const Vec3d v = lens.direction + ((x + 0.5) / width - 0.5) * vectors.right + (0.5 - (y + 0.5) / height) * vectors.up;
-			pixel.kappa = InverseFocusAlongLensAxis(lens, v) * Dot(direction, lens.normal) / slope;
-		}
-		else
-			pixel.kappa = lens.Kappa(direction) / slope;
-		pixel.inverse_depth = (distance < BOUND_HUGE) ? 1.0 / (distance * slope) : 0.0;
-		pixel.empty = false;
-	}
-
-	tilt_lens::Rgb c = { colour[pRED], colour[pGREEN], colour[pBLUE] };
-	if(camera_lens.spec.show_focus)
-		c = tilt_lens::ShowFocus(c, pixel, lens.aperture_diameter);
-	if(camera_lens.spec.show_plane)
-		c = tilt_lens::ShowPlane(c, pixel);
-	colour = Colour(c.r, c.g, c.b, colour[pFILTER], colour[pTRANSM]);
 }
 
 /// One ray through the lens centre, for a camera without an opening whose lens

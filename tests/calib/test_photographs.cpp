@@ -85,6 +85,23 @@ TEST(Photographs, TiltsOfTheRealLensAreWithinTheirSigmas)
 	EXPECT_LT(lens.at("rms_blur_px"), Calibration().at("rms_blur_px"));
 }
 
+// What scenes are seen through: sixteen numbers, and rims that the light tells with the edges. It must say more of photographs left out than six do, and its focal
+// length is the prescription's, which six numbers and rims of a thin lens's geometry miss by 0.2 mm: within its own sigmas, three.
+TEST(Photographs, SixteenNumbersForScenes)
+{
+	const Json lens = Calibration().at("scene_lens");
+	EXPECT_TRUE(lens.at("used").get<bool>());
+	EXPECT_LT(lens.at("held_out"), 0.99 * lens.at("held_out_six").get<double>());
+	EXPECT_NEAR(lens.at("focal_length_mm").get<double>(), 45, 3 * lens.at("focal_length_sigma_mm").get<double>());
+	EXPECT_LT(lens.at("focal_length_sigma_mm").get<double>(), 0.1);
+	// One on each side: the clear diameters of the first and of the last surface (tiltcal lens).
+	ASSERT_EQ(lens.at("rims").size(), 2u);
+	EXPECT_GT(lens.at("rims")[0].at("distance_mm"), 0);
+	EXPECT_LT(lens.at("rims")[1].at("distance_mm"), 0);
+	EXPECT_LT(lens.at("rms_place_px"), Calibration().at("real_lens").at("rms_place_px"));
+	EXPECT_LT(lens.at("rms_blur_px"), Calibration().at("real_lens").at("rms_blur_px"));
+}
+
 TEST(Photographs, LensAndSensor)
 {
 	const Json json = Calibration();

@@ -35,8 +35,8 @@ dpkg -L povray povray-includes | sort -u | while read -r path; do [ -d "$path" ]
 comm -12 ours theirs > both
 [ ! -s both ] || fail "files of the distribution's povray: $(cat both)"
 for file in /usr/bin/povray-tilt /usr/bin/tiltcal /usr/bin/tiltcost /usr/bin/povray-strips /usr/bin/tiltcal-batch /etc/povray-tilt/povray.conf \
-	/usr/share/doc/povray-tilt/README.md /usr/share/doc/povray-tilt/REFERENCE.md /usr/share/doc/povray-tilt/calib/CALIBRATING.md \
-	/usr/share/doc/povray-tilt/copyright /usr/share/tilt-lens/calibration.schema.json /usr/share/doc/povray-tilt/tests/cli/outside/tilts.cpp \
+	/usr/share/doc/povray-tilt/README.md /usr/share/doc/povray-tilt/REFERENCE.md /usr/share/povray-tilt/include/tilt_lens.inc /usr/share/doc/povray-tilt/povray-patch/TILT-LENS-INC.md /usr/share/doc/povray-tilt/calib/CALIBRATING.md \
+	/usr/share/doc/povray-tilt/copyright /usr/share/tilt-lens/calibration.schema.json /usr/share/tilt-lens/editors/vim/syntax/pov.vim /usr/share/tilt-lens/editors/vscode/package.json /usr/share/doc/povray-tilt/tests/cli/outside/tilts.cpp \
 	/usr/lib/povray-tilt/lib/libtiltcal.so /usr/lib/povray-tilt/lib/cmake/tiltcal/tiltcalConfig.cmake /usr/lib/povray-tilt/include/tilt-lens/tiltcal/calibrate.h; do
 	grep -qx "$file" ours || fail "$file is not in the package"
 done
@@ -70,8 +70,9 @@ run "$bin/tiltcal" target --board 6x5 --square 20 --out board.pdf
 cat > run/scene.pov <<'END'
 #version 3.7;
 #include "colors.inc"
+#include "tilt_lens.inc"
 global_settings { assumed_gamma 1 }
-camera { tilt_lens { aperture_diameter 0.3 focal_distance 5 } location -5*z look_at 0 }
+camera { tilt_lens { aperture_diameter 0.3 TL_Focus_Pull(5, 9, 0) } location -5*z look_at 0 }
 sphere { 0, 1 pigment { Red } finish { emission 1 } }
 END
 run "$bin/povray-tilt" scene.pov +W40 +H30 -D

@@ -138,7 +138,7 @@ light)
 	(cd "$dir/light" && "$bin/povray" "+I$work/s.pov" "+O$work/one.png" -D +WT1 +W64 +H49 +FN16 Declare=Strips_Light=2 > "$work/one.log" 2>&1) || fail "$(tail -3 one.log)"
 	pixels one.png s.png "photons saved once"
 	one none.png s.pov +W64 +H49 +FN16 Declare=Strips_Light=0; sed 's/photons { target.*on }/ /' s.pov > dark.pov; one dark.png dark.pov +W64 +H49 +FN16
-	python3 "$here/png_pixels.py" none.png dark.png > same.txt 2>&1 && fail "the photons change nothing: nothing shown"
+	python3 "$here/../support/png_pixels.py" none.png dark.png > same.txt 2>&1 && fail "the photons change nothing: nothing shown"
 	scene r.pov "$blur" "$light global_settings { radiosity { count 20 #if (Strips_Light = 2) pretrace_start 1 pretrace_end 1 always_sample off #end } }"
 	expect 0 r.pov $small --parts 2 --local 2 --light; [ -s "$(folder)/light/strips.rca" ] || fail "no radiosity"
 	scene t.pov "$blur"; expect 1 t.pov $small --parts 2 --local 1 --light; says "saved neither photons" ;;

@@ -152,6 +152,8 @@ class Writer
 			{
 				Say("show");
 				Say(random.Chance(0.9) ? (random.Chance(0.5) ? "focus" : "plane") : random.Pick(Strays));
+				if (random.Chance(0.3))
+					Number(-100.0, 4000.0);     // a width, which only focus takes
 			}
 			else
 				PlaneWords(2 + which % 2);

@@ -1,10 +1,24 @@
 # Sourced, after common.sh, by the scripts that render the scenes of a document. A scene is a block between "```pov" and
-# "```"; its first line is "// NAME: ...". Lines "// statistics: ..." are to be found in what POV-Ray reports.
+# "```"; its first line is "// NAME: ...". Lines "// statistics: ..." are to be found in what POV-Ray reports, and so is
+# what "// says: ..." has, wherever POV-Ray broke its lines; what "// never says: ..." has is not.
 
 root=$(cd "$here/../.." && pwd)
 
 # Runs of spaces are one.
 plain() { tr -s ' \t' ' ' | sed 's/^ //'; }
+
+# unbroken NAME: its lines "// says: ..." and "// never says: ...". POV-Ray breaks lines at the 80th character, within words too.
+unbroken() {
+	tr -d '\r\n ' < raw.log > said.txt
+	sed -n 's,^// says: *,,p' "$1.pov" | tr -d ' ' > to-be-said.txt
+	while IFS= read -r text; do
+		grep -qF -e "$text" said.txt || fail "$1: does not say '$text' but: $(sed -n '/Parsing/,/Parser Statistics/p' "$1.log")"
+	done < to-be-said.txt
+	sed -n 's,^// never says: *,,p' "$1.pov" | tr -d ' ' > unto-be-said.txt
+	while IFS= read -r text; do
+		! grep -qF -e "$text" said.txt || fail "$1: says '$text': $(sed -n '/Parsing/,/Parser Statistics/p' "$1.log")"
+	done < unto-be-said.txt
+}
 
 # render_examples DOCUMENT: NAME.pov, NAME.png and NAME.log of each scene, small, and the names in names.txt.
 render_examples() {
@@ -24,6 +38,7 @@ render_examples() {
 		while IFS= read -r line; do
 			grep -qF -e "$line" "$name.log" || fail "$name: no '$line' in the statistics: $(sed -n '/^Tilt lens/,/^Estimated/p' "$name.log")"
 		done < wanted.txt
+		unbroken "$name"
 		echo "$name: $(grep -c . wanted.txt) lines of statistics"
 	done
 }

@@ -78,6 +78,46 @@ declared)
 	# The same lens to rounding, which may turn single samples at edges.
 	check "the plane stays in the world" "$compare" rms 0.0005 whole.exr other.exr
 	;;
+restated)
+	# A declared camera with another lens: what stands around the block is kept, the block is the new one alone.
+	# restated NAME OF BEFORE AFTER [MOVE] [WHOLE]: declared as `tilt_lens { BEFORE } ... OF`, taken over with tilt_lens { AFTER }, is as if
+	# written so at once; WHOLE is OF without what AFTER overrides.
+	restated() {
+		scene other "camera { Other tilt_lens { $4 } $5 }" "#declare Other = camera { tilt_lens { $3 } $2 $view $blur }"
+		scene whole "camera { tilt_lens { $4 } ${6-$2} $view $blur $5 }"
+		scene before "camera { Other $5 }" "#declare Other = camera { tilt_lens { $3 } $2 $view $blur }"
+		render "$ours" other.ppm other.pov +A0.1
+		render "$ours" whole.ppm whole.pov +A0.1
+		render "$ours" before.ppm before.pov +A0.1
+		check "$1" "$compare" same whole.ppm other.ppm
+		check "$1 is seen" "$compare" differ 0.002 before.ppm other.ppm
+	}
+	move='rotate y * 8 translate <0.4, 0.2, -0.3>'
+	restated "plane and aperture" "" "focal_plane_tilt 60 focal_distance 8 aperture_diameter 0.4" "lens_tilt -10 focal_distance 6 aperture_diameter 0.2" "$move"
+	restated "effects go" "" "focal_distance 8 aperture_diameter 0.4 distortion -0.2 vignetting natural shift <0.1, 0.1> blades 5 denoise seed 3" "focal_distance 8 aperture_diameter 0.4"
+	restated "effects come" "" "focal_distance 8 aperture_diameter 0.4" "focal_distance 8 aperture_diameter 0.4 vignetting natural blades 5 denoise seed 3"
+	restated "aperture and focal_point stay" "aperture 0.8 focal_point <0, 1.4, 4.5>" "" "focal_plane_tilt 40" "$move"
+	restated "aperture and focal_point yield" "aperture 0.8 focal_point <0, 1.4, 4.5>" "focal_plane_tilt 20" "focal_plane <0, 0, 0>, y aperture_diameter 0.2" "$move" ""
+	restated "to a pinhole" "" "focal_distance 8 aperture_diameter 0.4" ""
+	restated "a preview" "" "focal_distance 8 aperture_diameter 0.4" "focal_distance 8 aperture_diameter 0.4 show focus"
+	# angle stays, and with it what focal_length means; a bokeh outside the block stays too.
+	view="angle 50 $view bokeh { pigment { gradient x color_map { [0.5 rgb <1, 0.2, 0.1>] [0.5 rgb <0.2, 1, 0.1>] } } }"
+	restated "angle and bokeh stay" "" "focal_distance 8 aperture_diameter 0.4" "focal_distance 8 focal_length 1 f_stop 3"
+	# Between its transformations, and declared once more.
+	scene other "camera { Third translate <0.4, 0.2, -0.3> }" "#declare Other = camera { tilt_lens { focal_distance 8 aperture_diameter 0.4 } $view $blur }
+		#declare Third = camera { Other rotate y * 8 tilt_lens { focal_distance 5 aperture_diameter 0.3 } }"
+	scene whole "camera { tilt_lens { focal_distance 5 aperture_diameter 0.3 } $view $blur $move }"
+	render "$ours" other.ppm other.pov
+	render "$ours" whole.ppm whole.pov
+	check "declared once more" "$compare" same whole.ppm other.ppm
+	# Refused: a camera without a lens, and two lenses.
+	scene other "camera { Other tilt_lens { } }" "#declare Other = camera { perspective $view }"
+	povray_to "$ours" other.ppm other.pov && fail "a lens is put on a perspective camera"
+	tr -s '\n ' ' ' < other.ppm.log | grep -q "The declared camera is no tilt_lens camera, and has no lens" || fail "no word about the perspective camera: $(grep -A3 Error other.ppm.log)"
+	scene other "camera { Other tilt_lens { focal_distance 5 } tilt_lens { } }" "#declare Other = camera { tilt_lens { } $view }"
+	povray_to "$ours" other.ppm other.pov && fail "two lenses are accepted"
+	grep -q "only one tilt_lens block" other.ppm.log || fail "no word about the second lens: $(grep -A3 Error other.ppm.log)"
+	;;
 macro)
 	# A macro that writes the camera, and one that writes the block.
 	scene ours "camera { tilt_lens { lens_tilt 5 tilt_direction 20 focal_distance 8 f_stop 2 } $view $blur }"

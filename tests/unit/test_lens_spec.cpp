@@ -186,6 +186,36 @@ TEST(LensSpec, ContradictionsAreRefused)
 		EXPECT_THAT(ErrorOf(Spec(words)), testing::AnyOf(HasSubstr("give one"), HasSubstr("contradicts"), HasSubstr("needs"), HasSubstr("leave out")));
 }
 
+TEST(LensSpec, WordsAroundABlockThatReplacesAnotherStayUnlessItContradictsThem)
+{
+	const LensSpec before = Spec([](LensSpec& s)
+	{
+		s.focal_plane_tilt = 20.0;
+		s.shift = Vec3d{ 0.1, 0.0, 0.0 };
+		s.denoise = true;
+		s.angle_given = s.right_given = true;
+		s.look_at = Vec3d{ 0, 0, 7 };
+		s.focal_point = Vec3d{ 0, 1, 9 };
+		s.aperture = 0.8;
+	});
+	const auto after = [&](const std::function<void(LensSpec&)>& set) { LensSpec s = Spec(set); s.Take_Words_Around(before); return s; };
+
+	const LensSpec empty = after([](LensSpec&) {});
+	EXPECT_FALSE(empty.focal_plane_tilt || empty.shift || empty.denoise) << "words of the block";
+	EXPECT_TRUE(empty.angle_given && empty.right_given && empty.look_at && empty.focal_point);
+	EXPECT_EQ(empty.focal_point.value.z, 9.0);
+	EXPECT_EQ(empty.aperture, 0.8);
+
+	// What focal_point would contradict (ContradictionsAreRefused).
+	EXPECT_FALSE(after([](LensSpec& s) { s.focal_distance = 5.0; }).focal_point);
+	EXPECT_FALSE(after([](LensSpec& s) { s.focal_plane_point = Vec3d{ 0, 0, 5 }; }).focal_point);
+	EXPECT_FALSE(after([](LensSpec& s) { s.focal_points[0] = s.focal_points[1] = s.focal_points[2] = Vec3d{ 0, 0, 5 }; }).focal_point);
+	EXPECT_FALSE(after([](LensSpec& s) { s.lens_tilt = 3.0; s.focal_length = 1.0; s.image_distance = 1.2; }).focal_point);
+	EXPECT_TRUE(after([](LensSpec& s) { s.lens_tilt = 3.0; s.focal_length = 1.0; }).focal_point);
+	EXPECT_EQ(after([](LensSpec& s) { s.aperture_diameter = 0.1; }).aperture, 0.0);
+	EXPECT_EQ(after([](LensSpec& s) { s.f_stop = 4.0; }).aperture, 0.0);
+}
+
 TEST(LensSpec, NotANumberIsRefusedByName)
 {
 	const double nan = std::nan(""), inf = HUGE_VAL;

@@ -318,7 +318,10 @@ struct RealLens
 	std::string failure;              ///< why there is none; empty when there is one
 	Estimate focal_length_mm, pupil_magnification, aperture_diameter_mm, psf_floor_squared;
 	double radius_mm = 0;             ///< of the entrance pupil, at which the aberrations are stated
-	std::array<Estimate, 6> aberrations_mm;   ///< spherical, coma, astigmatism, curvature, distortion, pupil: lens/aberrations.h
+	/// Spherical, coma, astigmatism, curvature, distortion, pupil, and ten of the fifth order, in the order of lens/aberrations.h.
+	std::array<Estimate, 16> aberrations_mm;
+	bool fifth_order = false;         ///< the ten are there
+	std::vector<RimEstimate> rims;    ///< found together with the lens; empty: those of the thin lens
 	std::vector<RealLensState> states;
 	double rms_place = 0, rms_blur = 0;       ///< robust, px
 	double held_out = 0;              ///< RMS residual of photographs predicted by the others, in what is usual of all; 0: cannot be said
@@ -348,6 +351,8 @@ struct Calibration
 	std::vector<StateLens> blur_alone;      ///< the same before the joint refinement: blur, with the geometry held
 	GeometryAlone geometry_alone;
 	std::optional<RealLens> real_lens;      ///< where it was asked for, or the thin lens leaves aberrations over
+	/// Sixteen numbers and the rims, from `real_lens` on: what scenes are seen through where it is `used`. Its `held_out_thin` is that of `real_lens`, in its units.
+	std::optional<RealLens> scene_lens;
 	std::optional<ModelComparison> compared;   ///< when the model was to be chosen
 	Solution paper;              ///< the paper's model, always
 	Geometry paper_geometry;     ///< poses of the paper's stage 1
@@ -359,6 +364,9 @@ struct Calibration
 
 	/// The lens that stands for state s: near its axis the real one's where that is the answer, else the thin one.
 	bool RealLensIsUsed() const { return real_lens && real_lens->used; }
+	bool SceneLensIsUsed() const { return RealLensIsUsed() && scene_lens && scene_lens->used; }
+	/// What the real lens's cameras have.
+	const RealLens& LensOfScenes() const { return SceneLensIsUsed() ? *scene_lens : *real_lens; }
 	const StateLens& TiltOf(size_t s) const { return RealLensIsUsed() ? real_lens->states[s].lens : solution.states[s]; }
 	Model Answer() const { return RealLensIsUsed() ? Model::LENS : solution.model; }
 

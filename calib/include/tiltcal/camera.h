@@ -35,7 +35,7 @@ struct StateCameraSigma
 struct CameraAberrations
 {
 	double pupil_magnification = 1, focal_length_mm = 0, radius_mm = 0;   ///< radius: of the entrance pupil at which `mm` is stated
-	std::array<double, 6> mm{};   ///< spherical, coma, astigmatism, curvature, distortion, pupil
+	std::array<double, 16> mm{};   ///< spherical, coma, astigmatism, curvature, distortion, pupil, and ten of the fifth order: lens/aberrations.h
 };
 
 struct StateCamera

@@ -37,9 +37,14 @@ def read(path):
 	return (width, height, depth, colour, chunks.get(b"gAMA")), rows
 
 
-(kind_a, a), (kind_b, b) = read(sys.argv[1]), read(sys.argv[2])
-assert kind_a == kind_b, f"{kind_a} and {kind_b}"
-differ = [y + 1 for y in range(len(a)) if a[y] != b[y]]
-assert len(set(a)) > 1, "a picture of one row again and again shows nothing"
-assert not differ, f"{len(differ)} of {len(a)} rows differ, row {differ[0]} first"
-print(f"{len(a)} rows of {kind_a[0]} pixels, {kind_a[2]} bits, the same")
+def compare(one, other):
+	(kind_a, a), (kind_b, b) = read(one), read(other)
+	assert kind_a == kind_b, f"{kind_a} and {kind_b}"
+	differ = [y + 1 for y in range(len(a)) if a[y] != b[y]]
+	assert len(set(a)) > 1, "a picture of one row again and again shows nothing"
+	assert not differ, f"{len(differ)} of {len(a)} rows differ, row {differ[0]} first"
+	print(f"{len(a)} rows of {kind_a[0]} pixels, {kind_a[2]} bits, the same")
+
+
+if __name__ == "__main__":
+	compare(sys.argv[1], sys.argv[2])
