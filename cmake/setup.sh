@@ -7,12 +7,12 @@ set -eu
 
 packages="
 	ca-certificates cmake ninja-build g++ make patch autoconf automake
-	zlib1g-dev libpng-dev libjpeg-dev libtiff-dev libopenexr-dev libexiv2-dev
+	libsdl1.2-dev zlib1g-dev libpng-dev libjpeg-dev libtiff-dev libopenexr-dev libexiv2-dev
 	libboost-thread-dev libboost-date-time-dev libboost-system-dev
 	libceres-dev libeigen3-dev libopencv-dev libcli11-dev nlohmann-json3-dev
 	libspdlog-dev libfmt-dev libgtest-dev libgmock-dev libbenchmark-dev libpugixml-dev
 	pkg-config pybind11-dev python3-dev libcairo2-dev fonts-dejavu-core poppler-utils
-	gnuplot-nox povray povray-includes slurm-wlm munge procps
+	gnuplot-nox povray povray-includes slurm-wlm munge procps xvfb xdotool
 	dpkg-dev file man-db python3-jsonschema python3-openimageio python3-numpy locales"
 # Wanted, but nothing fails without them (debootstrap: the workflow `package` tests in a clean root).
 optional="ccache debootstrap"
