@@ -202,9 +202,16 @@ void FindRealLens(const CalibrateOptions& o, Calibration& c)
 	if (!asked && (o.model || o.effects.kind != EffectChoice::AUTO || !c.refined || !AberrationsAreLeftOver(c)))
 		return;
 	o.log.Info("solving one real lens, with aberrations, for all states");
-	RealLenses found = FindRealLens(c.task, c.geometry, c.solution, WrittenRims(c));
+	RealLenses found = FindRealLens(c.task, c.geometry, c.solution, WrittenRims(c), [&](RealLens& lens)
+	{
+		lens.used = asked || (lens.held_out > 0 && lens.held_out < WORTH_IT * lens.held_out_thin);
+		if (!lens.used || !o.scene_lens)
+			return false;
+		o.log.Info("solving it with ten more numbers, for scenes");
+		return true;
+	});
 	c.real_lens = std::move(found.tilts);
-	RealLens& lens = *c.real_lens;
+	const RealLens& lens = *c.real_lens;
 	if (!lens.failure.empty())
 	{
 		if (asked)
@@ -212,14 +219,13 @@ void FindRealLens(const CalibrateOptions& o, Calibration& c)
 		o.log.Info(fmt::format("no real lens: {}", lens.failure));
 		return;
 	}
-	lens.used = asked || (lens.held_out > 0 && lens.held_out < WORTH_IT * lens.held_out_thin);
 	o.log.Info(fmt::format("real lens {}: photographs left out are predicted to {:.2f} of what is usual by it, to {:.2f} by {}", lens.used ? "taken" : "not taken", lens.held_out, lens.held_out_thin,
 		NameOf(c.solution.model)));
 	c.scene_lens = std::move(found.scene);
 	if (!c.scene_lens)
 		return;
 	RealLens& scene = *c.scene_lens;
-	scene.used = lens.used && scene.held_out > 0 && scene.held_out < WORTH_IT * scene.held_out_thin;
+	scene.used = scene.held_out > 0 && scene.held_out < WORTH_IT * scene.held_out_thin;
 	o.log.Info(fmt::format("sixteen numbers {} for scenes: photographs left out are predicted to {:.2f} of what is usual by them, to {:.2f} by six", scene.used ? "taken" : "not taken", scene.held_out, scene.held_out_thin));
 }
 

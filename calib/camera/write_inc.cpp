@@ -179,8 +179,8 @@ std::string CameraInc(const Calibration& c, size_t s)
 		return out + thin;
 	// Six numbers that serve the boards say less than a thin lens at distances where no board stood; sixteen say more.
 	const std::string lenses = c.SceneLensIsUsed()
-		? "// 1: the real lens, by sixteen numbers, which predicts photographs of the board best; place it with `tiltcal pose --real-lens`. Its tilt is its own, not quite the one\n"
-		  "// that the calibration says. 0: the thin lens that comes nearest to it.\n"
+		? "// 1: the real lens, by sixteen numbers, which predicts photographs of the board best; place it by what `tiltcal pose` finds through\n"
+		  "// the real lens. Its tilt is its own, not quite the one that the calibration says. 0: the thin lens that comes nearest to it.\n"
 		: "// 1: the real lens, which has the tilts that the calibration says and predicts photographs of the board best.\n"
 		  "// 0: the thin lens that comes nearest to it, which is better at distances where no board stood.\n";
 	return out + lenses + "#ifndef (TiltCal_Real_Lens)\n\t#declare TiltCal_Real_Lens = 0;\n#end\n\n#if (TiltCal_Real_Lens = 0)\n\n" + thin +

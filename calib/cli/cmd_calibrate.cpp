@@ -267,6 +267,7 @@ void Run(const Options& o, const std::string& command_line)
 	CalibrateOptions options;
 	measure.threads = options.threads = o.threads;
 	options.model = ParseModel(o.model);
+	options.scene_lens = o.edges_per_photo == 0;
 	options.poses = ParsePoses(o.poses);
 	options.refinement = ParseRefinement(o.refine);
 	options.effects = ParseEffects(o.effects);
@@ -339,7 +340,7 @@ void AddCalibrate(CLI::App& app, const std::string& command_line)
 	c->add_option("--effects", o->effects, "What the camera blocks simulate: auto: what is significant and predicts photographs left out better; all: all that can be estimated; "
 		"none; or some of " + EffectNames() + ", separated by commas: exactly these")->capture_default_str();
 	c->add_option("--edges-per-photo", o->edges_per_photo, "Measure only N edges of every photograph, spread evenly over the board and both directions: "
-		"faster, less accurate. 0: all")->capture_default_str();
+		"faster, less accurate, and a real lens by six numbers alone. 0: all")->capture_default_str();
 	c->add_option("--threads", o->threads, "Work on so many photographs at once, and solve on so many threads; 0: all processors. What is measured in the photographs does "
 		"not depend on it, what is solved in its last digits")->capture_default_str();
 	c->add_flag("--any-orientation", o->any_orientation, "Accept a board that stands upside down (a mirrored picture looks the same)");

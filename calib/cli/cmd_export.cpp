@@ -61,9 +61,9 @@ void ExportMaps(const Options& o, const StateCamera& camera, FileSet& set)
 	if (!o.stmap.empty())
 	{
 		const Margins margins = ParseOverscan(o.overscan, camera);
-		WriteStMaps(camera, margins, o.stmap, set);
+		const double share = WriteStMaps(camera, margins, o.stmap, set);
 		fmt::print("{0}-undistort.exr, {0}-redistort.exr: photograph {1} x {2}, undistorted {3} x {4}, which shows {5:.1f} % of the photograph\n", o.stmap, camera.width,
-			camera.height, camera.width + 2 * margins.x, camera.height + 2 * margins.y, 100 * SharePictured(camera, margins));
+			camera.height, camera.width + 2 * margins.x, camera.height + 2 * margins.y, 100 * share);
 	}
 	if (!o.rays.empty())
 	{

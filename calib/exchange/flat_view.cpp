@@ -90,7 +90,11 @@ Margins ParseOverscan(const std::string& text, const StateCamera& camera)
 double SharePictured(const StateCamera& camera, const Margins& margins)
 {
 	const StateCamera flat = FlatView(camera, margins);
-	const cv::Mat map = PixelMap(camera, flat);
+	return SharePictured(PixelMap(camera, flat), flat);
+}
+
+double SharePictured(const cv::Mat& map, const StateCamera& flat)
+{
 	long shown = 0;
 	for (int y = 0; y < map.rows; ++y)
 		for (int x = 0; x < map.cols; ++x)
@@ -98,7 +102,7 @@ double SharePictured(const StateCamera& camera, const Margins& margins)
 			const cv::Vec2f place = map.at<cv::Vec2f>(y, x);
 			shown += place[0] >= -0.5f && place[0] <= float(flat.width) - 0.5f && place[1] >= -0.5f && place[1] <= float(flat.height) - 0.5f;
 		}
-	return double(shown) / (double(camera.width) * camera.height);
+	return double(shown) / double(map.total());
 }
 
 cv::Mat PixelMap(const StateCamera& to, const StateCamera& from)

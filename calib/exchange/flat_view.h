@@ -31,6 +31,8 @@ Margins ParseOverscan(const std::string& text, const StateCamera& camera);
 
 /// Share of the photograph's pixels that the flat view shows, 0..1.
 double SharePictured(const StateCamera& camera, const Margins& margins);
+/// The same from PixelMap(camera, flat), where that is there already.
+double SharePictured(const cv::Mat& map, const StateCamera& flat);
 
 /// CV_32FC2, as large as the picture of `to`: where in `from` each of its pixels is, px. NaN: nowhere, because the lens never bends light
 /// there. One of the two may have a distortion.

@@ -16,9 +16,9 @@ namespace tiltcal
 namespace
 {
 
-void WriteStMap(const StateCamera& to, const StateCamera& from, const std::string& file, const std::map<std::string, std::string>& notes, FileSet& set)
+/// `map`: where in `from` each pixel is.
+void WriteStMap(const cv::Mat& map, const StateCamera& from, const std::string& file, const std::map<std::string, std::string>& notes, FileSet& set)
 {
-	const cv::Mat map = PixelMap(to, from);
 	const std::map<std::string, cv::Mat> channels{ { "R", cv::Mat(map.size(), CV_32FC1) }, { "G", cv::Mat(map.size(), CV_32FC1) },
 		{ "B", cv::Mat::zeros(map.size(), CV_32FC1) } };
 	cv::Mat R = channels.at("R"), G = channels.at("G");
@@ -35,15 +35,17 @@ void WriteStMap(const StateCamera& to, const StateCamera& from, const std::strin
 
 }
 
-void WriteStMaps(const StateCamera& camera, const Margins& margins, const std::string& stem, FileSet& set)
+double WriteStMaps(const StateCamera& camera, const Margins& margins, const std::string& stem, FileSet& set)
 {
 	const StateCamera flat = FlatView(camera, margins);
 	std::map<std::string, std::string> notes{ { "tiltcal_state", camera.state }, { "tiltcal_photograph", fmt::format("{} x {}", camera.width, camera.height) },
 		{ "tiltcal_undistorted", fmt::format("{} x {}", flat.width, flat.height) } };
 	notes["comments"] = "STMap of tiltcal: (R, G) are 0 to 1 from the left and bottom edge of the photograph; -1 is outside";
-	WriteStMap(flat, camera, stem + "-undistort.exr", notes, set);
+	WriteStMap(PixelMap(flat, camera), camera, stem + "-undistort.exr", notes, set);
 	notes["comments"] = "STMap of tiltcal: (R, G) are 0 to 1 from the left and bottom edge of the undistorted picture; -1 is outside";
-	WriteStMap(camera, flat, stem + "-redistort.exr", notes, set);
+	const cv::Mat redistort = PixelMap(camera, flat);
+	WriteStMap(redistort, flat, stem + "-redistort.exr", notes, set);
+	return SharePictured(redistort, flat);
 }
 
 double FocusDepth(const StateCamera& camera, const Vec3<double>& v)

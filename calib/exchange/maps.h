@@ -17,8 +17,8 @@ namespace tiltcal
 /// STMaps as Nuke, Fusion, Flame and Blender read them: channel R is x, G is y, 0 to 1 over the picture that is looked up, 0 its left and
 /// BOTTOM edge, so that pixel (i, j) of W x H has ((i + 0.5) / W, 1 - (j + 0.5) / H). -1: outside. B is 0.
 /// STEM-undistort.exr: for every pixel of the flat view, where the photograph shows it. STEM-redistort.exr: for every pixel of the photograph,
-/// where the flat view shows it.
-void WriteStMaps(const StateCamera& camera, const Margins& margins, const std::string& stem, FileSet& set);
+/// where the flat view shows it. Returns SharePictured.
+double WriteStMaps(const StateCamera& camera, const Margins& margins, const std::string& stem, FileSet& set);
 
 /// For every pixel of the photograph, ray.X, ray.Y, ray.Z: the unit direction of what it sees through the lens centre, camera frame
 /// (frames.h: x right, y up, z forward); focus.Z: depth z of the point on that line which is in focus, mm, on the bowl where there is one:

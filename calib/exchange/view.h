@@ -31,7 +31,7 @@ View ViewOf(const StateCamera& camera);
 /// A name of letters, digits and _ for other programs' scenes: "tiltcal_" and the state's.
 std::string SceneName(const StateCamera& camera);
 
-/// Decimal, no exponent's surprises: what the scene languages read.
+/// 15 digits: what the scene languages read back to the last of a double but one.
 std::string SceneNumber(double value);
 
 }

@@ -157,6 +157,7 @@ Calibration CalibrateFiles(const std::vector<std::filesystem::path>& untilted, c
 	measure.log = LogTo(progress);
 	CalibrateOptions solve;
 	solve.model = ParseModel(model);
+	solve.scene_lens = edges_per_photo == 0;
 	solve.poses = ParsePoses(poses);
 	solve.threads = threads;
 	solve.log = measure.log;

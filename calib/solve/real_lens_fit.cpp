@@ -103,15 +103,15 @@ RealLensEdge EdgeOf(const RealLensFit& fit, const Edge& e, const RealLensNumbers
 		std::array<std::array<double, RIMS_SIZE>, 2> by_rims{};
 		for (size_t k = 0; k < RIM_SIZE * x.sides.size(); ++k)
 		{
-			const double h = 0.02;
+			const double change = 0.02;   // of the logarithms of a radius and a distance
 			RealLensNumbers more, less;
 			more.sides = less.sides = x.sides;
 			more.rims = less.rims = x.rims;
-			more.rims[k] += h;
-			less.rims[k] -= h;
+			more.rims[k] += change;
+			less.rims[k] -= change;
 			const std::array<double, 2> above = seen(more), below = seen(less);
 			for (size_t i = 0; i < 2; ++i)
-				by_rims[i][k] = (above[i] - below[i]) / (2 * h);
+				by_rims[i][k] = (above[i] - below[i]) / (2 * change);
 		}
 		edge.by_rims = by_rims;
 	}
@@ -198,9 +198,9 @@ std::vector<PhotographBlocks> Build(const RealLensFit& fit, const std::vector<Re
 	Hold(problem, x.c.data(), tilt_lens::AberrationTerms, held);
 	Hold(problem, x.lens.data(), LENS_SIZE, x.magnification_free ? std::vector<int>{} : std::vector<int>{ MAGNIFICATION });
 	held.clear();
-	for (int k = 0; k < RIMS_SIZE; ++k)
-		if (!x.rims_free || k >= RIM_SIZE * int(x.sides.size()))
-			held.push_back(k);
+	for (int number = 0; number < RIMS_SIZE; ++number)
+		if (!x.rims_free || number >= RIM_SIZE * int(x.sides.size()))
+			held.push_back(number);
 	Hold(problem, x.rims.data(), RIMS_SIZE, held);
 	if (x.lens_held)
 		for (const double* const block : { x.lens.data(), x.c.data(), x.rims.data() })

@@ -120,7 +120,8 @@ RealLens Described(const Task& task, const RealLensAnswer& answer)
 
 }
 
-RealLenses FindRealLens(const Task& task, const Geometry& geometry, const Solution& thin, const std::vector<tilt_lens::Rim>& rims)
+RealLenses FindRealLens(const Task& task, const Geometry& geometry, const Solution& thin, const std::vector<tilt_lens::Rim>& rims,
+	const std::function<bool(RealLens& tilts)>& judge)
 {
 	RealLenses found;
 	const Stopwatch time;
@@ -133,6 +134,8 @@ RealLenses FindRealLens(const Task& task, const Geometry& geometry, const Soluti
 	found.tilts = Described(task, *six);
 	found.tilts.held_out_thin = HeldOutOf(task, geometry, thin, six->error);
 	found.tilts.seconds = time.Seconds();
+	if (!judge(found.tilts))
+		return found;
 	const Stopwatch more;
 	const std::optional<RealLensAnswer> sixteen = SolveSceneLens(task, geometry, six->numbers);
 	if (sixteen && (!geometry.shared_poses || sixteen->about_shared_poses))

@@ -7,6 +7,7 @@
 
 #include "lens/optical_vignetting.h"
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -20,8 +21,10 @@ struct RealLenses
 	std::optional<RealLens> scene;   ///< sixteen, and the rims; where it converges. `held_out_thin` of it is that of `tilts` in its own units
 };
 
-/// One real lens for all states, from the thin lens on; `rims`: what vignettes. Where there is no answer, its failure says so.
-RealLenses FindRealLens(const Task& task, const Geometry& geometry, const Solution& thin, const std::vector<tilt_lens::Rim>& rims);
+/// One real lens for all states, from the thin lens on; `rims`: what vignettes. Where there is no answer, its failure says so. `judge`
+/// sets `used` of the one found, and says whether the one of sixteen numbers, which takes three times as long, is asked for beside it.
+RealLenses FindRealLens(const Task& task, const Geometry& geometry, const Solution& thin, const std::vector<tilt_lens::Rim>& rims,
+	const std::function<bool(RealLens& tilts)>& judge);
 
 }
 

@@ -88,6 +88,8 @@ struct CalibrateOptions
 	Poses poses = Poses::AUTO;
 	Refinement refinement = Refinement::EDGES;
 	EffectChoice effects{};
+	/// Where a real lens is the answer: find the one of sixteen numbers for scenes too, which takes as long again as all the rest.
+	bool scene_lens = true;
 	Log log{};
 	/// 0: all processors. Sums come out in another order with another number, and results differ in their last digits.
 	int threads = 0;
