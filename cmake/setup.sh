@@ -21,18 +21,18 @@ if ! command -v apt-get > /dev/null 2>&1; then
 	cat >&2 <<'END'
 setup.sh knows apt only. Please install by your system's own names:
   a C++17 compiler, cmake >= 3.25, ninja, make, patch, autoconf, automake
-  zlib, libpng, libjpeg, libtiff, exiv2, OpenEXR 3, Boost (thread, date_time, system)
+  zlib, libpng, libjpeg, libtiff, exiv2, OpenEXR 3, Boost (thread, date_time, system), SDL 1.2 (the preview window)
   Ceres Solver 2.1, Eigen 3, OpenCV 4, CLI11, nlohmann-json, spdlog, fmt,
   pkg-config, cairo, a sans-serif font, poppler's pdftoppm (for a test)
   GoogleTest, Google Benchmark, pugixml, gnuplot
-  povray 3.7 (stock, the tests' oracle), man (for a test), Python 3 with jsonschema 4 (for a test), the sources of a German locale (for a test), Slurm and munge (for a test), ccache (optional)
+  povray 3.7 (stock, the tests' oracle), man (for a test), Python 3 with jsonschema 4 (for a test), the sources of a German locale (for a test), Slurm and munge (for a test), Xvfb, xdotool and numpy (for a test), ccache (optional)
   Fedora: gcc-c++ cmake ninja-build patch autoconf automake zlib-devel libpng-devel libjpeg-turbo-devel
-          libtiff-devel exiv2-devel openexr-devel boost-devel ceres-solver-devel eigen3-devel opencv-devel cli11-devel
+          SDL-devel libtiff-devel exiv2-devel openexr-devel boost-devel ceres-solver-devel eigen3-devel opencv-devel cli11-devel
           json-devel spdlog-devel fmt-devel gtest-devel gmock-devel google-benchmark-devel pugixml-devel gnuplot povray ccache
-          pkgconf cairo-devel dejavu-sans-fonts poppler-utils python3-jsonschema
-  Arch:   base-devel cmake ninja zlib libpng libjpeg-turbo libtiff exiv2 openexr boost ceres-solver eigen opencv
+          pkgconf cairo-devel dejavu-sans-fonts poppler-utils python3-jsonschema python3-numpy xorg-x11-server-Xvfb xdotool
+  Arch:   base-devel cmake ninja sdl12-compat zlib libpng libjpeg-turbo libtiff exiv2 openexr boost ceres-solver eigen opencv
           cli11 nlohmann-json spdlog fmt gtest benchmark pugixml gnuplot povray ccache pkgconf cairo ttf-dejavu poppler
-          python-jsonschema
+          python-jsonschema python-numpy xorg-server-xvfb xdotool
   and the POV-Ray 3.7.0.10 source archive: cmake --preset release -DPOVRAY_SOURCE=/path/to/archive
 END
 	exit 1
