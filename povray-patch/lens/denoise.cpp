@@ -209,7 +209,8 @@ void JudgeBlocks(const NoisyPicture& picture, int top, int bottom, Band& band)
 
 }
 
-double DenoiseRows(const NoisyPicture& picture, int top, int bottom, std::vector<float> (&denoised)[PictureChannels])
+double DenoiseRows(const NoisyPicture& picture, int top, int bottom, std::vector<float> (&denoised)[PictureChannels],
+                   std::vector<float> *squared_error)
 {
 	static const std::vector<Kernel> kernels = AllKernels();
 	Band band;
@@ -229,7 +230,10 @@ double DenoiseRows(const NoisyPicture& picture, int top, int bottom, std::vector
 			const size_t from = size_t(y - first + Margin) * band.cost.width + x + Margin;
 			for(int c = 0; c < PictureChannels; c++)
 				denoised[c][size_t(y) * picture.width + x] = band.best[c].v[from];
-			error += band.cost.v[from] * Optimism;
+			const double pixel = band.cost.v[from] * Optimism;
+			if(squared_error)
+				(*squared_error)[size_t(y) * picture.width + x] = float(pixel);
+			error += pixel;
 		}
 	return error;
 }

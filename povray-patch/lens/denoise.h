@@ -51,8 +51,10 @@ struct NoisyPicture
 /// Denoises rows top..bottom (inclusive) into the same rows of `denoised`, planes of
 /// the picture's size. Rows beyond are looked at where the picture has them. Returns
 /// the sum over those pixels of the estimated squared error (mean of red, green,
-/// blue). The result for a row does not depend on top and bottom.
-double DenoiseRows(const NoisyPicture& picture, int top, int bottom, std::vector<float> (&denoised)[PictureChannels]);
+/// blue), and puts each pixel's into `squared_error`, a plane of the picture's size, where that is not null. The
+/// result for a row does not depend on top and bottom.
+double DenoiseRows(const NoisyPicture& picture, int top, int bottom, std::vector<float> (&denoised)[PictureChannels],
+                   std::vector<float> *squared_error = nullptr);
 
 }
 

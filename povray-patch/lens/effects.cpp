@@ -243,6 +243,7 @@ std::string IdleWords(const LensSpec& spec, const TiltLens& lens)
 		{ lens.aberrates && !AberratesPinholeRays(lens), NameOf(Word::Aberrations) },
 		{ spec.denoise, NameOf(Word::Denoise) },
 		{ spec.area_light_grid, NameOf(Word::AreaLightGrid) },
+		{ spec.channels, NameOf(Word::Channels) },
 		{ spec.show_focus, NameOf(Word::ShowFocus) }
 	};
 	std::string names;

@@ -80,6 +80,9 @@ struct LensSpec
 	/// Ask the whole grid of every area light at every hit, as stock does.
 	bool area_light_grid = false;
 
+	/// Keep more than colours of every pixel, for files that can hold it.
+	bool channels = false;
+
 	/// Which of the equally good sets of samples to take.
 	Given<double> seed;
 

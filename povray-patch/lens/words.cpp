@@ -55,6 +55,8 @@ const WordRow Words[WordCount] =
 	  "lets pixels learn from their neighbours" },
 	{ Word::AreaLightGrid, "area_light_grid", "", "", NULL, Range::Own, "–",
 	  "asks all points of an area light for every ray, as stock does" },
+	{ Word::Channels, "channels", "", "", NULL, Range::Own, "–",
+	  "adds depth, blur width, samples and error to an OpenEXR file" },
 	{ Word::Seed, "seed", "", "N", &LensSpec::seed, Range::Own, "–",
 	  "which of the equally good sets of samples to take" },
 	{ Word::ShowFocus, "show", "focus", "[WIDTH]", NULL, Range::Own, "pixels",

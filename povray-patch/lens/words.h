@@ -22,7 +22,7 @@ enum class Word
 	ApertureDiameter, FStop,
 	Distortion, FieldCurvature, Blades, NaturalVignetting, OpticalVignetting,
 	LateralChromatic, AxialChromatic, PupilMagnification, Aberrations,
-	Denoise, AreaLightGrid, Seed, ShowFocus, ShowPlane
+	Denoise, AreaLightGrid, Channels, Seed, ShowFocus, ShowPlane
 };
 const int WordCount = int(Word::ShowPlane) + 1;
 

@@ -6,6 +6,7 @@
 #ifndef TILT_LENS_CAMERA_LENS_H
 #define TILT_LENS_CAMERA_LENS_H
 
+#include <memory>
 #include <vector>
 
 #include <boost/shared_ptr.hpp>
@@ -18,6 +19,7 @@ namespace tilt_lens
 {
 
 class DenoisedPicture;
+class LensChannels;
 class PilotQueue;
 struct ShownLabels;
 class TileBorders;
@@ -30,6 +32,7 @@ struct CameraLens
 	boost::shared_ptr<TileBorders> borders; ///< between the tiles of one picture, whichever thread traces them
 
 	boost::shared_ptr<DenoisedPicture> denoised; ///< where the scene asks for it, else null
+	std::shared_ptr<LensChannels> channels; ///< where the scene asks for them, else null
 	double bokeh_gain[3] = {};          ///< for red, green, blue: 1 over the mean of the bokeh pigment over the opening
 	boost::shared_ptr<ShownLabels> labels; ///< of `show focus`, else null
 	PilotRequest pilot;                 ///< what tiltcost asks for, instead of the picture
@@ -43,6 +46,10 @@ struct CameraLens
 	bool Samples_Lights() const { return Samples_Lens() && !spec.area_light_grid; }
 	/// The picture is traced in a first pass and shown in a second.
 	bool Denoises() const { return denoised && Samples_Lens() && !pilot; }
+	/// More than colours is kept of every pixel.
+	bool Records() const { return channels && Samples_Lens() && !pilot; }
+	/// An interrupted render can go on after the pixels it has: nothing but them is kept, and they are final.
+	bool Keeps_Pixels() const;
 	/// A view of width x height pixels begins, of which left..right, top..bottom (inclusive) are rendered.
 	void Begin_Picture(int width, int height, int left, int top, int right, int bottom);
 	/// The preview of focus is asked for instead of the picture.

@@ -10,6 +10,7 @@
 #include "backend/tilt_lens/camera_vectors.h"
 #include "backend/tilt_lens/denoised_picture.h"
 #include "backend/tilt_lens/pilot_queue.h"
+#include "lens/lens_channels.h"
 
 // this must be the last file included
 #include "base/povdebug.h"
@@ -56,10 +57,18 @@ void Camera::Transform_Tilt_Lens(const TRANSFORM *Trans)
 namespace tilt_lens
 {
 
+bool CameraLens::Keeps_Pixels() const
+{
+	return !Records() && (!Denoises() || denoised->IsShown());
+}
+
 void CameraLens::Begin_Picture(int width, int height, int left, int top, int right, int bottom)
 {
 	if(Denoises())
 		denoised->Begin(width, height, left, top, right, bottom);
+	if(Records())
+		channels->Begin(width, height);
+	LensChannels::SetCurrent(Records() ? channels : nullptr);
 	if(pilot_queue)
 		pilot_queue->Begin(width, height, left, top, right, bottom);
 }

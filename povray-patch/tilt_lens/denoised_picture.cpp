@@ -19,7 +19,7 @@ namespace tilt_lens
 static const int BandHeight = 128;
 
 DenoisedPicture::DenoisedPicture() :
-	part(), extended(), missing(0), squaredError(0.0)
+	part(), extended(), missing(0), squaredError(0.0), shown(false)
 {
 }
 
@@ -38,7 +38,9 @@ void DenoisedPicture::Begin(int width, int height, int left, int top, int right,
 	bandDone.assign((noisy.height + BandHeight - 1) / BandHeight, false);
 	for(int c = 0; c < PictureChannels; c++)
 		denoised[c].assign(missing, 0.0f);
+	squaredErrors.assign(missing, 0.0f);
 	squaredError = 0.0;
+	shown = false;
 }
 
 void DenoisedPicture::Extend(int& left, int& top, int& right, int& bottom) const
@@ -65,17 +67,20 @@ void DenoisedPicture::Record(int x, int y, const SampleSums& sums)
 	recorded[i] = true;
 }
 
-void DenoisedPicture::Denoised(int x, int y, float *channels)
+double DenoisedPicture::Denoised(int x, int y, float *channels)
 {
 	const int row = y - extended.top, band = row / BandHeight;
 
 	if(!bandDone[band])
 	{
-		squaredError += DenoiseRows(noisy, band * BandHeight, std::min((band + 1) * BandHeight, noisy.height) - 1, denoised);
+		squaredError += DenoiseRows(noisy, band * BandHeight, std::min((band + 1) * BandHeight, noisy.height) - 1, denoised, &squaredErrors);
 		bandDone[band] = true;
 	}
+	const size_t i = size_t(row) * noisy.width + (x - extended.left);
 	for(int c = 0; c < PictureChannels; c++)
-		channels[c] = denoised[c][size_t(row) * noisy.width + (x - extended.left)];
+		channels[c] = denoised[c][i];
+	shown = true;
+	return std::sqrt(double(squaredErrors[i]));
 }
 
 double DenoisedPicture::RmsError() const

@@ -6,6 +6,7 @@
 #ifndef TILT_LENS_DENOISED_PICTURE_H
 #define TILT_LENS_DENOISED_PICTURE_H
 
+#include <atomic>
 #include <cstddef>
 #include <vector>
 
@@ -36,8 +37,12 @@ class DenoisedPicture
 
 		void Record(int x, int y, const SampleSums& sums);
 
-		/// A pixel denoised, as PictureChannels numbers. Only when complete.
-		void Denoised(int x, int y, float *channels);
+		/// A pixel denoised, as PictureChannels numbers, and its estimated standard error (linear, RMS of red, green and
+		/// blue). Only when complete.
+		double Denoised(int x, int y, float *channels);
+
+		/// Denoised has been called: the second pass has begun. Needs no lock.
+		bool IsShown() const { return shown; }
 
 		/// Estimated RMS error of what Denoised gave, 0 before.
 		double RmsError() const;
@@ -52,7 +57,9 @@ class DenoisedPicture
 		std::vector<bool> recorded;         // pixels
 		std::vector<bool> bandDone;
 		std::vector<float> denoised[PictureChannels];
-		double squaredError;
+		std::vector<float> squaredErrors;   // of pixels
+		double squaredError;                // their sum
+		std::atomic<bool> shown;
 };
 
 }

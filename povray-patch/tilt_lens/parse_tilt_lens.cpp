@@ -19,6 +19,7 @@
 #include "backend/tilt_lens/shown_labels.h"
 #include "backend/tilt_lens/tile_borders.h"
 #include "lens/effects.h"
+#include "lens/lens_channels.h"
 #include "lens/words.h"
 
 // this must be the last file included
@@ -155,6 +156,9 @@ void Parser::Parse_Tilt_Lens_Word(Camera& New)
 		case Word::AreaLightGrid:
 			spec.area_light_grid = true;
 			break;
+		case Word::Channels:
+			spec.channels = true;
+			break;
 		case Word::ShowFocus:
 			Parse_Tilt_Lens_Show(spec);
 			break;
@@ -228,6 +232,8 @@ void Parser::Warn_Of_Idle_Tilt_Lens_Words(const Camera& New)
 	if (!idle.empty())
 		Warning(0, "tilt_lens: without an aperture everything is sharp, and this does nothing: %s.\n"
 		           "Give aperture_diameter or f_stop, or leave it out.", idle.c_str());
+	if (New.Tilt_Lens.spec.channels && (sceneData->defaultFileType != kPOVList_FileType_OpenEXR))
+		Warning(0, "tilt_lens: channels are written into OpenEXR files only: give +FE.");
 	if (sceneData->outputAlpha && (sceneData->defaultFileType != kPOVList_FileType_OpenEXR) && (lens.splits || lens.bokeh))
 		Warning(0, "tilt_lens: colours that part at the edge of what is transparent are brighter than their alpha,\n"
 		           "which this file format clips. Write OpenEXR (+FE), or render without alpha (-UA).");
@@ -265,6 +271,8 @@ void Parser::Resolve_Tilt_Lens(Camera& New)
 		New.Tilt_Lens.labels = boost::shared_ptr<tilt_lens::ShownLabels>(new tilt_lens::ShownLabels());
 	if (New.Tilt_Lens.spec.denoise)
 		New.Tilt_Lens.denoised = boost::shared_ptr<tilt_lens::DenoisedPicture>(new tilt_lens::DenoisedPicture());
+	if (New.Tilt_Lens.spec.channels)
+		New.Tilt_Lens.channels.reset(new tilt_lens::LensChannels());
 	New.Tilt_Lens.pilot = tilt_lens::ParsePilotRequest(getenv(tilt_lens::PilotVariable));
 	if (New.Tilt_Lens.pilot)
 		New.Tilt_Lens.pilot_queue = boost::shared_ptr<tilt_lens::PilotQueue>(new tilt_lens::PilotQueue(New.Tilt_Lens.pilot));

@@ -6,6 +6,7 @@
 #define TILT_LENS_SAMPLE_SUMS_H
 
 #include <algorithm>
+#include <cmath>
 
 #include "lens/convergence.h"
 #include "lens/sampler.h"
@@ -175,16 +176,35 @@ struct SampleSums
 		return std::max(0.0, squares[i] - 2.0 * mean * weighted[i] + mean * mean * square_weights[i]) / (count - 1);
 	}
 
+	/// Variance of a sample in one of the channels.
+	double Variance(int i) const
+	{
+		const double mean = sum[i] / count;
+		return painted && (i < 3) ? PaintedVariance(i) : (squares[i] / count - mean * mean) * count / (count - 1);
+	}
+
 	/// Largest variance of a sample over the channels.
 	double Variance() const
 	{
 		double worst = 0.0;
 		for(int i = 0; i < Channels; i++)
-		{
-			const double mean = sum[i] / count;
-			worst = std::max(worst, painted && (i < 3) ? PaintedVariance(i) : (squares[i] / count - mean * mean) * count / (count - 1));
-		}
+			worst = std::max(worst, Variance(i));
 		return worst;
+	}
+
+	/// Estimated error of the mean, RMS of red, green and blue, from this pixel alone: the mean of what each of the latest
+	/// doublings says of v(n) ~ n^-1.4, which its own share in a picture's estimate (convergence.h) is too noisy
+	/// to fit. 1 of a single sample, which says nothing of its error. `neighbourhood`: as in Changes.
+	double StandardError(double neighbourhood) const
+	{
+		if(count < 2)
+			return 1.0;
+		const LevelChanges c = neighbourhood > 0.0 ? Changes(neighbourhood) : Changes();
+		const double fall = 2.639;              // 2^1.4, between nets' 1.1 and 1.7
+		double variance = 0.0, weight = 1.0 / (fall - 1.0);
+		for(int j = 0; j < c.changes; j++, weight /= fall)
+			variance += c.change[j] * weight / c.changes;
+		return std::sqrt(variance * std::pow(double(earlier_counts[0]) / count, 1.4));
 	}
 };
 

@@ -20,28 +20,21 @@ namespace pov
 
 using tilt_lens::Vec3d;
 
-/// One ray through the lens centre: what the preview of focus knows of a place in the picture, and
-/// its colour. False where there is no ray.
-bool TracePixel::FocusOfTiltLensPixel(tilt_lens::PixelFocus& focus, Colour& colour, DBL x, DBL y, DBL width, DBL height)
+/// The ray through the lens centre and a place in the picture. False where there is none.
+bool TracePixel::CreateTiltLensChiefRay(Ray& ray, DBL x, DBL y, DBL width, DBL height)
 {
-	const tilt_lens::CameraLens& camera_lens = camera.Tilt_Lens;
-	const tilt_lens::TiltLens& lens = camera_lens.lens;
-	// In pixels of the picture that is to come, if the scene says how wide that is.
-	const DBL counted_width = camera_lens.spec.show_width ? camera_lens.spec.show_width.value : width;
-	Ray ray;
-
-	focus.inverse_depth = focus.kappa = 0.0;
-	focus.pixels_per_slope = counted_width * Dot(lens.direction, lens.axis) / cameraLengthRight;
-	focus.empty = true;
-	colour.clear();
 	tiltLensSample = { 0.5, 0.5, 0.5, 0.5 };
+	tiltLensWavelength = tilt_lens::GreenWavelength;
 	// Anti-aliasing asks for places between pixels.
-	SeedRandomNumbersOfTiltLens(tilt_lens::RandomSeedOfPixel(int(x * 4096.0), int(y * 4096.0), camera_lens.Seed(), 0));
-	if(!CreateCameraRay(ray, x, y, width, height, 0))
-		return false;
+	SeedRandomNumbersOfTiltLens(tilt_lens::RandomSeedOfPixel(int(x * 4096.0), int(y * 4096.0), camera.Tilt_Lens.Seed(), 0));
+	return CreateCameraRay(ray, x, y, width, height, 0);
+}
 
-	Trace::TraceTicket ticket(maxTraceLevel, adcBailout, sceneData->outputAlpha);
-	const DBL distance = TraceRay(ray, colour, 1.0, ticket, false, camera.Max_Ray_Distance);
+/// What the preview of focus knows of a place in the picture, from the ray through it and from how far that goes
+/// (HUGE_VAL: for ever). Blur widths are to be counted in pixels of a picture so wide.
+void TracePixel::FocusAlongTiltLensRay(tilt_lens::PixelFocus& focus, const Ray& ray, DBL distance, DBL x, DBL y, DBL width, DBL height, DBL counted_width)
+{
+	const tilt_lens::TiltLens& lens = camera.Tilt_Lens.lens;
 	const Vec3d direction = { ray.Direction[X], ray.Direction[Y], ray.Direction[Z] };
 	const DBL slope = Dot(direction, lens.axis);
 
@@ -54,7 +47,27 @@ bool TracePixel::FocusOfTiltLensPixel(tilt_lens::PixelFocus& focus, Colour& colo
 	else
 		focus.kappa = lens.Kappa(direction) / slope;
 	focus.inverse_depth = (distance < BOUND_HUGE) ? 1.0 / (distance * slope) : 0.0;
+	focus.pixels_per_slope = counted_width * Dot(lens.direction, lens.axis) / cameraLengthRight;
 	focus.empty = false;
+}
+
+/// One ray through the lens centre: what the preview of focus knows of a place in the picture, and
+/// its colour. False where there is no ray.
+bool TracePixel::FocusOfTiltLensPixel(tilt_lens::PixelFocus& focus, Colour& colour, DBL x, DBL y, DBL width, DBL height)
+{
+	const tilt_lens::LensSpec& spec = camera.Tilt_Lens.spec;
+	Ray ray;
+
+	focus.inverse_depth = focus.kappa = focus.pixels_per_slope = 0.0;
+	focus.empty = true;
+	colour.clear();
+	if(!CreateTiltLensChiefRay(ray, x, y, width, height))
+		return false;
+
+	Trace::TraceTicket ticket(maxTraceLevel, adcBailout, sceneData->outputAlpha);
+	const DBL distance = TraceRay(ray, colour, 1.0, ticket, false, camera.Max_Ray_Distance);
+	// In pixels of the picture that is to come, if the scene says how wide that is.
+	FocusAlongTiltLensRay(focus, ray, distance, x, y, width, height, spec.show_width ? spec.show_width.value : width);
 	return true;
 }
 

@@ -10,6 +10,7 @@
 #include "backend/tilt_lens/denoised_picture.h"
 #include "backend/tilt_lens/sample_sums.h"
 #include "backend/tilt_lens/tile_borders.h"
+#include "lens/lens_channels.h"
 
 // this must be the last file included
 #include "base/povdebug.h"
@@ -71,7 +72,11 @@ void TracePixel::TraceTiltLensTile(int left, int top, int right, int bottom, int
 		SampleTiltLensPixel(*pixel, lens.levels[pixel->level].samples, width, height);
 		cooperate();
 		if((pixel->x >= left) && (pixel->x <= right) && (pixel->y >= top) && (pixel->y <= bottom))
+		{
 			colours.push_back(pixel->sums.Mean());
+			if(lens.Records())
+				RecordTiltLensChannels(*pixel, width, height);
+		}
 		threadData->tiltLensCounts.AddPixel(pixel->sums.count, pixel->sums.Changes(pixel->neighbourhood_variance));
 		threadData->tiltLensCounts.AddLight(pixel->sums.count * rays - pixel->sums.stopped, adapts ? pixel->sums.Rarity() : RareLight(), pixel->sums.count < lens.levels.back().samples);
 	}
@@ -97,8 +102,10 @@ bool TracePixel::GiveDenoisedTile(int left, int top, int right, int bottom, vect
 	for(int y = top; y <= bottom; y++)
 		for(int x = left; x <= right; x++)
 		{
-			picture.Denoised(x, y, c);
+			const DBL error = picture.Denoised(x, y, c);
 			colours.push_back(Colour(c[0], c[1], c[2], c[3], c[4]));
+			if(camera.Tilt_Lens.Records())
+				camera.Tilt_Lens.channels->SetError(x, y, error);
 		}
 	return true;
 }

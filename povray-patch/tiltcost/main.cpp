@@ -42,12 +42,20 @@ void CheckFiles(const Options& options)
 	}
 }
 
-/// The answer to --time, --error or --levels; nothing where none was asked.
-std::string Answer(const Options& options, const Pilot& pilot, const Machine& machine, const std::vector<Row>& best)
+/// A setting for each frame of a film that had a pilot.
+std::vector<FrameRow> FrameRows(const FilmRun& film, const Setting& setting)
 {
-	const Figure error = [](const Row& row) { return row.predicted.error; };
-	const Figure levels = [](const Row& row) { return row.predicted.Levels(); };
-	std::optional<Row> row;
+	std::vector<FrameRow> rows;
+	for (size_t i = 0; i < film.frames.size(); ++i)
+		rows.push_back({film.frames[i], MakeRow(Pilot(film.runs[i].blocks), film.runs[i].machine, setting)});
+	return rows;
+}
+
+/// The answer to --time, --error or --levels, and its row without denoise; nothing where none was asked.
+std::string Answer(const Options& options, const Pilot& pilot, const Machine& machine, const std::vector<Row>& best, std::optional<Row>& row)
+{
+	const Figure error = [](const Row& r) { return r.predicted.error; };
+	const Figure levels = [](const Row& r) { return r.predicted.Levels(); };
 	if (options.time > 0)
 	{
 		row = BestWithin(best, options.time);
@@ -98,9 +106,17 @@ void Run(const Options& options)
 	Report report;
 	report.scene = options.job.scene;
 	report.stop_levels = options.stop_levels;
+	FilmRun film;
 	{
 		const tiltcal::TemporaryFolder folder("tiltcost");
-		report.pilot = RunPilots(options.job, folder);
+		if (options.job.frames > 0)
+		{
+			film = RunFilmPilots(options.job, folder);
+			report.range = film.range;
+			report.pilot = Joined(film);
+		}
+		else
+			report.pilot = RunPilots(options.job, folder);
 	}
 	if (!options.rows.empty())
 		return WriteRows(options, report.pilot);
@@ -134,8 +150,10 @@ void Run(const Options& options)
 		tiltcal::WriteText(options.csv, CsvText(report));
 	if (!options.plot.empty())
 		WritePlot(report, options.plot);
-	const std::string answer = Answer(options, pilot, report.pilot.machine, report.best);
-	fmt::print("{}", answer.empty() ? HeaderText(report) + "\n" + TableText(report) : answer);
+	std::optional<Row> answer;
+	const std::string text = Answer(options, pilot, report.pilot.machine, report.best, answer);
+	report.frames = FrameRows(film, answer ? answer->setting : report.rows[std::min(StopsPaying(report.rows, options.stop_levels), report.rows.size() - 1)].setting);
+	fmt::print("{}{}", text.empty() ? HeaderText(report) + "\n" + TableText(report) : text, FramesText(report));
 }
 
 }

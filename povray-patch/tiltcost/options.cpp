@@ -95,6 +95,7 @@ const char Footer[] =
 	"Example:\n"
 	"  tiltcost scenes/first-tilt/first-tilt.pov +Lscenes/first-tilt +W1920 +H1080 --plot cost.svg\n"
 	"  tiltcost scenes/first-tilt/first-tilt.pov +Lscenes/first-tilt +W1920 +H1080 --time 60s\n"
+	"  tiltcost scenes/sweep/sweep.ini +Lscenes/sweep --frames 5 --time 2h        (all frames of the film in two hours)\n"
 	"\n"
 	"Error: RMS over pixels and channels of the linear picture, 0 to 1, against infinitely many samples. Levels: the same of\n"
 	"the sRGB-encoded picture, times 255. Times are for an otherwise idle machine; confidence is POV-Ray's default, 0.9.\n"
@@ -154,6 +155,7 @@ Options ParseCommandLine(CLI::App& app, int argc, char** argv)
 	app.add_option("--rows", options.rows, "write the seconds of every row, for the first --setting, else for what the scene\nitself says, and stop: FILE.json; povray-strips cuts pictures by it");
 	app.add_option("--pilot-time", pilot_time, "how long pilots may trace, by the clock: blocks of 16 x 16 pixels that\nhave not begun by then are left out, all but the first 4 [10s]");
 	app.add_option("--pilot-blocks", options.job.most_blocks, "at most so many blocks of 16 x 16 pixels [120]")->check(CLI::Range(1, 1000000));
+	app.add_option("--frames", options.job.frames, "the scene is an animation (+KFI +KFF, or its ini file): pilots of so many of its\nframes, evenly spread; all figures are the film's")->check(CLI::Range(1, 1000));
 	app.add_flag("--scene-may-write", options.job.may_write, "let a scene that opens files for writing (#fopen) do so: it is parsed twice");
 	app.add_option("--povray", options.job.povray, "POV-Ray with tilt_lens [the povray beside tiltcost]");
 
@@ -177,6 +179,8 @@ Options ParseCommandLine(CLI::App& app, int argc, char** argv)
 		throw CLI::ValidationError("--plot", fmt::format("'{}' ends neither in .svg nor in .png", options.plot));
 	if (!options.rows.empty() && (options.time > 0 || options.error > 0 || options.levels > 0 || !options.csv.empty() || !options.plot.empty()))
 		throw CLI::ValidationError("--rows", "goes with none of --time, --error, --levels, --csv and --plot");
+	if (!options.rows.empty() && options.job.frames > 0)
+		throw CLI::ValidationError("--rows", "is about one picture, and --frames about many; choose one with +SFn +EFn");
 	for (const std::string& setting : settings)
 		options.own.push_back(ParseSetting(setting));
 	return options;

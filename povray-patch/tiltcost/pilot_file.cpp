@@ -62,7 +62,7 @@ std::vector<PilotBlock> ParsePilot(const std::string& text)
 		if (words >> own.min >> own.max >> own.variance >> own.confidence >> own.denoise)
 			block.own = own;
 		if (!seen.insert({block.left, block.top}).second)
-			throw tiltcal::Refused("more than one frame was rendered; choose one frame of the animation with +SFn +EFn");
+			throw tiltcal::Refused("more than one frame was rendered; say --frames 5 for the film, or choose one of them with +SFn +EFn");
 		while (int(block.pixels.size()) < block.width * block.height && std::getline(in, line))
 			block.pixels.push_back(ParsePixel(line));
 		// The file may end within a block or a line: the pilot was stopped.

@@ -15,6 +15,7 @@
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <optional>
 
 namespace tiltcost
 {
@@ -74,10 +75,14 @@ class PilotRenders
 public:
 	PilotRenders(const Job& what, const tiltcal::TemporaryFolder& where) : job(what), folder(where) {}
 
-	PilotRun Run(const PilotPlan& plan, double seconds, const std::string& title, int number);
+	/// `frame`: of an animation, else none.
+	PilotRun Run(const PilotPlan& plan, double seconds, const std::string& title, const std::string& number, std::optional<int> frame = {});
+
+	/// Which frames the scene and the options ask for. No pixel is traced.
+	FrameRange Frames();
 
 private:
-	std::vector<std::string> Command() const;
+	std::vector<std::string> Command(std::optional<int> frame) const;
 	bool Watch(double seconds);
 
 	const Job& job;
@@ -95,13 +100,15 @@ std::string Quoted(const std::string& path)
 }
 
 /// The user's options, and after them those that keep the user's picture and screen as they are.
-std::vector<std::string> PilotRenders::Command() const
+std::vector<std::string> PilotRenders::Command(std::optional<int> frame) const
 {
 	std::vector<std::string> command = {job.povray};
 	command.push_back(IsIniFile(job.scene) ? Quoted(job.scene) : "+I" + Quoted(job.scene));
 	command.insert(command.end(), job.options.begin(), job.options.end());
 	for (const char* option : {"-D", "-P", "-C", "-A", "+SP1", "+EP1", "+V", "+GA", "-RFO"})
 		command.emplace_back(option);
+	if (frame)
+		command.insert(command.end(), {fmt::format("+SF{}", *frame), fmt::format("+EF{}", *frame)});
 	command.push_back("+O" + Quoted(folder.File("picture")));
 	return command;
 }
@@ -122,9 +129,9 @@ bool PilotRenders::Watch(double seconds)
 		std::sscanf(said.c_str() + at, "Rendered %lf of %lf", &rendered, &all) != 2 || rendered < all / 2;
 }
 
-PilotRun PilotRenders::Run(const PilotPlan& plan, double seconds, const std::string& title, int number)
+PilotRun PilotRenders::Run(const PilotPlan& plan, double seconds, const std::string& title, const std::string& number, std::optional<int> frame)
 {
-	const std::string file = folder.File(fmt::format("pilot{}", number)), log = folder.File(fmt::format("log{}", number));
+	const std::string file = folder.File("pilot" + number), log = folder.File("log" + number);
 	pilot = std::make_unique<Growing>(file);
 	messages = std::make_unique<Growing>(log);
 	done = 0;
@@ -133,7 +140,7 @@ PilotRun PilotRenders::Run(const PilotPlan& plan, double seconds, const std::str
 	std::vector<std::string> environment = {fmt::format("{}={},{},{:g},{}", tilt_lens::PilotVariable, plan.blocks, plan.samples, seconds, file)};
 	if (job.may_write)
 		environment.push_back(fmt::format("{}=1", tilt_lens::PilotWritesVariable));
-	const tiltcal::ProcessResult result = tiltcal::RunProcess({Command(), "", environment, "", log},
+	const tiltcal::ProcessResult result = tiltcal::RunProcess({Command(frame), "", environment, "", log},
 		[this](double elapsed) { return Watch(elapsed); });
 	progress.End();
 
@@ -161,6 +168,70 @@ PilotRun PilotRenders::Run(const PilotPlan& plan, double seconds, const std::str
 	return run;
 }
 
+/// Of an option such as +SF12 the last that stands there; 0 for none.
+int LastNumberOf(const std::vector<std::string>& options, const char* word)
+{
+	int number = 0;
+	for (const std::string& option : options)
+		if (option.size() > 3 && (option[0] == '+' || option[0] == '-') && std::toupper(option[1]) == word[0] && std::toupper(option[2]) == word[1])
+			number = std::atoi(option.c_str() + 3);
+	return number;
+}
+
+FrameRange PilotRenders::Frames()
+{
+	const std::string log = folder.File("frames");
+	const auto said = [&] { return ReadRenderLog(Contents(log)); };
+	std::vector<std::string> command = Command({});
+	for (const char* option : {"+SR2", "+ER2", "+SC2", "+EC2", "+Q1"})
+		command.emplace_back(option);
+	// POV-Ray says how many frames it is to render before it parses the first.
+	const std::string nothing = fmt::format("{}=1,16,0.001,{}", tilt_lens::PilotVariable, folder.File("nothing"));
+	const tiltcal::ProcessResult result = tiltcal::RunProcess({command, "", {nothing}, "", log}, [&](double) { return said().rendered_frames == 0; });
+	const RenderLog read = said();
+	if (read.rendered_frames == 0 && result.exit_code != 0)
+		throw tiltcal::Refused(fmt::format("POV-Ray does not render {}:\n{}", job.scene, ErrorLines(Contents(log))));
+	if (read.rendered_frames <= 1)
+		throw tiltcal::Refused(fmt::format("{} is no animation of several frames, and --frames asks for one; give +KFI1 +KFF24, or leave it out", job.scene));
+	if (read.frame_step > 1)
+		throw tiltcal::Refused(fmt::format("{} has a Frame_Step of {}; --frames does not know which frames those are", job.scene, read.frame_step));
+	FrameRange range = {read.first_frame, read.first_frame + read.rendered_frames - 1};
+	if (range.last != read.last_frame)
+	{
+		// Which part of the animation is on the command line, or nowhere that POV-Ray tells of.
+		range.first = std::max(read.first_frame, LastNumberOf(job.options, "SF"));
+		range.last = range.first + read.rendered_frames - 1;
+		if (LastNumberOf(job.options, "SF") == 0 && LastNumberOf(job.options, "EF") == 0)
+			throw tiltcal::Refused(fmt::format("{} renders {} of {} frames; say on the command line which, +SFn +EFm", job.scene,
+				read.rendered_frames, read.last_frame - read.first_frame + 1));
+	}
+	return range;
+}
+
+/// What is left of the time for the pilots, after tiny ones: the processors may be busy with other work, or fewer than threads.
+double LeftOf(double seconds, const PilotRun& tiny)
+{
+	return std::max(0.1 * seconds, seconds - (tiny.wall - tiny.machine.start_wall));
+}
+
+/// Both started the same way; the first wrote less, and the machine may have been busy in either.
+void TakeLesserStart(PilotRun& run, const PilotRun& tiny)
+{
+	run.wall += tiny.wall;
+	run.machine.start_cpu = std::min(run.machine.start_cpu, tiny.machine.start_cpu);
+	run.machine.start_wall = std::min(run.machine.start_wall, tiny.machine.start_wall);
+}
+
+}
+
+std::vector<int> PilotedFrames(const FrameRange& range, int count)
+{
+	std::vector<int> frames;
+	const int all = range.Count();
+	count = std::min(count, all);
+	for (int i = 0; i < count; ++i)
+		frames.push_back(range.first + int((2LL * i + 1) * all / (2LL * count)));
+	return frames;
 }
 
 bool IsIniFile(const std::string& scene)
@@ -199,16 +270,66 @@ PilotPlan PlanRowsPilot(double seconds_per_sample, int threads, double seconds, 
 PilotRun RunPilots(const Job& job, const tiltcal::TemporaryFolder& folder)
 {
 	PilotRenders renders(job, folder);
-	const PilotRun tiny = renders.Run(TinyPilot, job.pilot_seconds, "first pilot", 1);
-	// What is planned is bounded too: the processors may be busy with other work, or fewer than threads.
-	const double left = std::max(0.1 * job.pilot_seconds, job.pilot_seconds - (tiny.wall - tiny.machine.start_wall));
+	const PilotRun tiny = renders.Run(TinyPilot, job.pilot_seconds, "first pilot", "1");
+	const double left = LeftOf(job.pilot_seconds, tiny);
 	const PilotPlan plan = (job.rows ? PlanRowsPilot : PlanPilot)(SecondsPerSample(tiny.blocks), tiny.machine.threads, left, job.most_blocks);
-	PilotRun run = renders.Run(plan, left, "pilot render", 2);
-	run.wall += tiny.wall;
-	// Both started the same way; the first wrote less, and the machine may have been busy in either.
-	run.machine.start_cpu = std::min(run.machine.start_cpu, tiny.machine.start_cpu);
-	run.machine.start_wall = std::min(run.machine.start_wall, tiny.machine.start_wall);
+	PilotRun run = renders.Run(plan, left, "pilot render", "2");
+	TakeLesserStart(run, tiny);
 	return run;
+}
+
+FilmRun RunFilmPilots(const Job& job, const tiltcal::TemporaryFolder& folder)
+{
+	PilotRenders renders(job, folder);
+	FilmRun film;
+	film.range = renders.Frames();
+	film.frames = PilotedFrames(film.range, job.frames);
+	const size_t count = film.frames.size();
+	const auto title = [&](const char* what, size_t i) { return fmt::format("{} of frame {} ({} of {})", what, film.frames[i], i + 1, count); };
+
+	// One plan for all, by their mean, so that each frame counts as much as another.
+	std::vector<PilotRun> tiny;
+	double sample = 0, left = 0;
+	for (size_t i = 0; i < count; ++i)
+	{
+		tiny.push_back(renders.Run(TinyPilot, job.pilot_seconds / double(count), title("first pilot", i), fmt::format("{}-1", i), film.frames[i]));
+		sample += SecondsPerSample(tiny[i].blocks) / double(count);
+		left += LeftOf(job.pilot_seconds / double(count), tiny[i]);
+	}
+	const PilotPlan plan = PlanPilot(sample, tiny[0].machine.threads, left / double(count), job.most_blocks);
+	size_t least = size_t(plan.blocks);
+	for (size_t i = 0; i < count; ++i)
+	{
+		// By its own share of the time, and some: a frame that is dearer than others takes longer for as many blocks.
+		const double share = 1.5 * left * SecondsPerSample(tiny[i].blocks) / std::max(1e-12, sample * double(count));
+		film.runs.push_back(renders.Run(plan, share, title("pilot", i), fmt::format("{}-2", i), film.frames[i]));
+		TakeLesserStart(film.runs[i], tiny[i]);
+		least = std::min(least, film.runs[i].blocks.size());
+	}
+	for (PilotRun& run : film.runs)
+		run.blocks.resize(least);
+	return film;
+}
+
+PilotRun Joined(const FilmRun& film)
+{
+	PilotRun joined;
+	const double share = 1.0 / double(film.runs.size()), frames = film.range.Count();
+	joined.log = film.runs[0].log;
+	joined.machine.threads = film.runs[0].machine.threads;
+	joined.machine.rays_per_sample = 0;
+	for (const PilotRun& run : film.runs)
+	{
+		joined.blocks.insert(joined.blocks.end(), run.blocks.begin(), run.blocks.end());
+		joined.wall += run.wall;
+		joined.machine.pixels += run.machine.pixels * share * frames;
+		joined.machine.start_cpu += run.machine.start_cpu * share * frames;
+		joined.machine.start_wall += run.machine.start_wall * share * frames;
+		joined.machine.rays_per_sample += run.machine.rays_per_sample * share;
+		joined.log.radiosity |= run.log.radiosity;
+		joined.log.photons |= run.log.photons;
+	}
+	return joined;
 }
 
 }

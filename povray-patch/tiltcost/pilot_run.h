@@ -27,7 +27,19 @@ struct Job
 	int most_blocks = 120;
 	bool rows = false;                  ///< only where the time goes is asked: many blocks of few samples
 	bool may_write = false;             ///< the scene's own #fopen .. write and append
+	int frames = 0;                     ///< of a film, so many have pilots; 0: the scene is one picture
 };
+
+/// The frames of a film that are to be rendered, first..last (inclusive).
+struct FrameRange
+{
+	int first = 0, last = 0;
+
+	int Count() const { return last - first + 1; }
+};
+
+/// `count` of them or all: the middle one of each of as many parts of the same length, so that their mean is the film's.
+std::vector<int> PilotedFrames(const FrameRange& range, int count);
 
 struct PilotPlan
 {
@@ -50,6 +62,8 @@ struct RenderLog
 	bool radiosity = false, photons = false;
 	bool pinhole = false;               ///< a tilt_lens with aperture 0
 	double camera_rays = 0;             ///< of the lens, all together
+	int first_frame = 0, last_frame = 0, frame_step = 1;    ///< of an animation
+	int rendered_frames = 0;            ///< how many of them were asked for
 	bool writes = false;                ///< it was refused because its scene writes files
 };
 
@@ -69,9 +83,23 @@ struct PilotRun
 	double wall = 0;                    ///< seconds that both pilots took
 };
 
+/// A film: pilots of some of its frames.
+struct FilmRun
+{
+	FrameRange range;
+	std::vector<int> frames;
+	std::vector<PilotRun> runs;         ///< of each of them, as many samples a pixel and as many blocks each
+};
+
 /// Renders with progress on stderr. Throws tiltcal::Error where the scene does not render or has no
 /// tilt_lens with an aperture, and Interrupted.
 PilotRun RunPilots(const Job& job, const tiltcal::TemporaryFolder& folder);
+
+/// The same for job.frames frames of a film. Throws tiltcal::Error also where the scene is no animation.
+FilmRun RunFilmPilots(const Job& job, const tiltcal::TemporaryFolder& folder);
+
+/// The film as one long picture: the blocks of all pilots, and the pixels and starts of all frames.
+PilotRun Joined(const FilmRun& film);
 
 }
 

@@ -41,6 +41,9 @@ RenderLog ReadRenderLog(const std::string& log)
 		int top, bottom, left, right, threads;
 		if (std::sscanf(line.c_str(), " Image resolution.....%d by %d (rows %d to %d, columns %d to %d", &read.width, &read.height, &top, &bottom, &left, &right) == 6)
 			read.pixels = double(bottom - top + 1) * (right - left + 1);
+		std::sscanf(line.c_str(), " Initial Frame: %d Final Frame: %d", &read.first_frame, &read.last_frame);
+		std::sscanf(line.c_str(), " Frame Step: %d", &read.frame_step);
+		std::sscanf(line.c_str(), "Rendering frame 1 of %d", &read.rendered_frames);
 		if (Contains(line, "Photon Time:"))
 			read.photons = !Contains(line, "No photons");
 		if (Contains(line, "Radiosity Time:"))

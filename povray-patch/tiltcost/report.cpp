@@ -71,9 +71,13 @@ std::string HeaderText(const Report& report)
 	std::string text = fmt::format("{}: {} x {} pixels{}, {} thread{}\n", report.scene, log.width, log.height,
 		log.pixels < double(log.width) * log.height ? fmt::format(" ({} of them rendered)", CountText(log.pixels)) : "",
 		machine.threads, machine.threads > 1 ? "s" : "");
-	text += fmt::format("Pilot: {} blocks of {} x {} pixels, {} samples each, in {}. Before the first ray: {} ({} CPU).\n", report.blocks, tilt_lens::PilotBlockSize,
+	if (report.range.Count() > 1)
+		text += fmt::format("A film of {} frames, {} to {}: errors are RMS over all of them, rays and times those of all together.\n", report.range.Count(),
+			report.range.first, report.range.last);
+	text += fmt::format("Pilot: {} blocks of {} x {} pixels, {} samples each, in {}. Before the first ray{}: {} ({} CPU).\n", report.blocks, tilt_lens::PilotBlockSize,
 		tilt_lens::PilotBlockSize, report.samples,
-		DurationText(report.pilot.wall), DurationText(machine.start_wall), DurationText(machine.start_cpu));
+		DurationText(report.pilot.wall), report.range.Count() > 1 ? " of each frame" : "",
+		DurationText(machine.start_wall / report.range.Count()), DurationText(machine.start_cpu / report.range.Count()));
 	if (report.spread.error > 0 || report.spread.seconds > 0)
 		text += fmt::format("Predicted from a part of the picture: errors within {:.0f} %, times within {:.0f} % (one standard deviation).\n",
 			std::ceil(100 * report.spread.error), std::ceil(100 * report.spread.seconds));
@@ -104,6 +108,16 @@ std::string TableText(const Report& report)
 	text += fmt::format("With denoise: the RMS error when tilt_lens {{ denoise }} is written too; takes {} more.\n", DurationText(report.denoise_seconds));
 	if (extrapolated)
 		text += fmt::format("~ Extrapolated beyond the pilot's {} samples.\n", report.samples);
+	return text;
+}
+
+std::string FramesText(const Report& report)
+{
+	if (report.frames.empty())
+		return {};
+	std::string text = fmt::format("Frames by themselves, {}:\n  frame   RMS error  render time\n", SceneText(report.frames[0].row.setting));
+	for (const FrameRow& frame : report.frames)
+		text += fmt::format("  {:>5}   {:>9.5f}  {:>11}\n", frame.frame, frame.row.predicted.error, DurationText(frame.row.wall));
 	return text;
 }
 

@@ -14,11 +14,20 @@
 namespace tiltcost
 {
 
+/// A frame of a film by itself.
+struct FrameRow
+{
+	int frame = 0;
+	Row row;
+};
+
 struct Report
 {
 	std::string scene;
 	PilotRun pilot;             ///< its blocks may be gone by now
 	int blocks = 0, samples = 0;
+	FrameRange range;           ///< of a film; else 0..0
+	std::vector<FrameRow> frames;   ///< its pilots' frames, for the row where it stops paying or the answer
 	std::vector<Row> best;      ///< as of BestRows
 	std::vector<Row> rows;      ///< of the table, the coarsest first
 	std::vector<Row> own;       ///< settings that were asked for
@@ -38,6 +47,9 @@ std::string HeaderText(const Report& report);
 
 /// The table and the rule that marks a row.
 std::string TableText(const Report& report);
+
+/// What each of the film's frames that had a pilot costs and gives. Empty for one picture.
+std::string FramesText(const Report& report);
 
 /// One setting and what it costs, for --time and the like.
 std::string AnswerText(const Row& row);

@@ -151,7 +151,22 @@ not_tilted) scene s.pov perspective; refuses 1 "tilt_lens" s.pov $small ;;
 pinhole) scene s.pov tilt_lens; refuses 1 "aperture 0" s.pov $small ;;
 broken) scene s.pov "$lens ["; refuses 1 "s.pov' line 4: Parse Error" s.pov $small ;;
 missing) refuses 1 "nowhere.pov" nowhere.pov $small ;;
-animation) scene s.pov "$lens"; refuses 1 "+SF" s.pov $small +KFI1 +KFF2 ;;
+animation) scene s.pov "$lens"; refuses 1 "--frames 5.*+SF" s.pov $small +KFI1 +KFF2 ;;
+frames)
+	# A film whose sphere grows from nothing: all frames' figures together, and those of the frames that had pilots.
+	scene s.pov "$lens"; sed -i 's/sphere { 0, 1/sphere { 0, 0.01 + 2 * clock/' s.pov
+	expect 0 s.pov $small +KFI1 +KFF24 --frames 4 --csv film.csv
+	prints "A film of 24 frames, 1 to 24"
+	for frame in 4 10 16 22; do prints "^ *$frame  *0\.[0-9]* "; done
+	# Of a part of it, the middle frames of its parts; its time is a part of the whole's.
+	expect 0 s.pov $small +KFI1 +KFF24 +SF9 +EF12 --frames 9 --error 0.02
+	for frame in 9 10 11 12; do prints "^ *$frame  *0\.0[0-9]* "; done
+	prints "^blur_samples"
+	refuses 1 "no animation" s.pov $small --frames 3
+	printf 'Input_File_Name=s.pov\nInitial_Frame=1\nFinal_Frame=24\nSubset_Start_Frame=3\nSubset_End_Frame=7\n' >s.ini
+	refuses 1 "5 of 24 frames; say on the command line which" s.ini $small --frames 3
+	expect 0 s.ini $small +SF3 +EF7 --frames 1 --error 0.02; prints "^ *5  *0\.0"
+	refuses 2 "one picture" s.pov $small --frames 3 --rows rows.json ;;
 interrupt)
 	scene s.pov "$lens"
 	"$tiltcost" --povray "$povray" s.pov +W640 +H480 +WT1 --pilot-time 60s --pilot-blocks 4000 >out 2>err &

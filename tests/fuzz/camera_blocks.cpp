@@ -233,6 +233,8 @@ class Writer
 				if (random.Chance(0.1))
 					Say("area_light_grid");
 				if (random.Chance(0.1))
+					Say("channels");
+				if (random.Chance(0.1))
 					Say(random.Chance(0.8) ? "seed 12" : "seed 1.5");
 			}
 			Say("}");

@@ -22,7 +22,7 @@ const char* const NotNumbers[] = {
 
 const char* const Strays[] = {
 	"{", "}", "{", "}", ",", "<", ">", "(", ")", "-", ";", "tilt_lens", "tilt_lens {}", "camera", "camera {", "focal_length", "focal_points",
-	"show", "show plane", "focus", "denoise", "area_light_grid", "seed", "shift", "distortion", "lens_tilt", "location", "look_at", "angle", "aperture", "sphere", "pigment",
+	"show", "show plane", "focus", "denoise", "area_light_grid", "channels", "seed", "shift", "distortion", "lens_tilt", "location", "look_at", "angle", "aperture", "sphere", "pigment",
 	"perspective", "orthographic", "fisheye", "normal", "Other", "NoCamera", "Vector", "42", "\"", "//", "/*", "\"text\"",
 	"#if (0)", "#end", "#declare", "#local A = 1;", "#undef Vector", "#macro M()", "blades", "bokeh", "vignetting", "natural", "optical", "chromatic", "lateral", "axial", "pupil_magnification", "aberrations", "aberrations {", "coma", "fifth_order", "rotation", "curvature", "default", "@", "\xff" };
 

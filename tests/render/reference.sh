@@ -20,7 +20,7 @@ sort -u with_scene.txt | comm -23 headings.txt - > without.txt
 # What the scenes' statistics name, and what the headings do: the same effects.
 for effect in $(sed 's/ .*//' headings.txt | sort -u); do
 	case $effect in
-		denoise | area_light_grid | show) continue ;; # no effects of the lens
+		denoise | area_light_grid | channels | show) continue ;; # no effects of the lens
 	esac
 	grep -h '^Effects: ' *.log | grep -q -e "$effect" || fail "no scene's statistics name $effect"
 done
