@@ -295,9 +295,25 @@ def names():
 	assert log().count("Display_File: nothing is shown without +D") == 1 and not os.path.exists("shown.png"), log()
 
 
+def quiet():
+	"""Neither a pilot nor a part of a picture shows anything, whatever the user's options say."""
+	scene(16)
+	shows = ["+W160", "+H120", "+D", "+P", f"Display_File={WORK}/shown.png"]
+	programs = Path(POVRAY).parent
+	for words in ([programs / "tiltcost", "s.pov", *shows, "--pilot-time", "0.2s"],
+			[programs / "povray-strips", "s.pov", *shows, "--parts", "2", "--local", "2", "--pilot-time", "0.2s", "+Os.png"]):
+		with open("log", "wb") as messages:
+			done = subprocess.run(words, stdin=subprocess.DEVNULL, stdout=messages, stderr=messages, env=NO_SCREEN, timeout=120, check=False)
+		assert done.returncode == 0, log()
+		assert not os.path.exists("shown.png"), f"{words[0].name} shows the picture"
+	assert os.path.exists("s.png"), "povray-strips made no picture"
+	with povray(NO_SCREEN, *shows, "+Oagain.png") as process:
+		assert finish(process) == 0 and os.path.exists("shown.png"), log()
+
+
 shutil.rmtree(WORK, ignore_errors=True)
 os.makedirs(WORK)
 os.chdir(WORK)
 {"blur": lambda: window("", ["click", "1"]), "focus": lambda: window("show focus", ["key", "Return"]), "denoise": lambda: window("denoise", ["key", "q"]),
-	"animation": animation, "scaled": scaled, "stop": stop, "none": none, "file": lambda: file(""), "file_denoise": lambda: file("denoise"), "names": names}[CASE]()
+	"animation": animation, "scaled": scaled, "stop": stop, "none": none, "file": lambda: file(""), "file_denoise": lambda: file("denoise"), "names": names, "quiet": quiet}[CASE]()
 print("all well")
