@@ -175,6 +175,7 @@ def scaled():
 		with povray(environment, "+D", "+P", "+FP", "File_Gamma=srgb", "+Os.ppm", size=(width, height)) as process:
 			wait("a picture that waits", waits())
 			small = (533, 400) # POV-Ray leaves 10 columns and 80 rows of the screen
+			time.sleep(0.5) # the X server draws a little later than it is asked
 			window_ = shown(*small)
 	scene(4)
 	render("-D", "+FP", "File_Gamma=srgb", "+Onoisy.ppm", size=(width, height))
@@ -244,7 +245,7 @@ def states(process, name):
 
 def file(lens):
 	"""A picture that grows: nothing, parts, all."""
-	scene(2048, lens)
+	scene(4096, lens) # seconds on any machine: it is written once a second
 	# Without a screen, and none is missed.
 	with povray(NO_SCREEN, "+D", "+P", "Display_File=shown.png", "+FN", "+Os.png", "+BS8", "+WT1") as process:
 		wait("the file, before anything is traced", lambda: os.path.exists("shown.png"))
