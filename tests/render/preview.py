@@ -39,7 +39,7 @@ def wait(what, test, seconds=60):
 
 @contextlib.contextmanager
 def running(words, **options):
-	process = subprocess.Popen(words, stdin=subprocess.DEVNULL, **options)
+	process = subprocess.Popen(words, **{"stdin": subprocess.DEVNULL, **options})
 	try:
 		yield process
 	finally:
@@ -211,17 +211,16 @@ def none():
 	for name, environment in (("unset", NO_SCREEN), ("dead", dict(NO_SCREEN, DISPLAY=":987654"))):
 		# At a terminal, where SDL has drivers that draw in letters.
 		ours, its = pty.openpty()
-		with subprocess.Popen([POVRAY, "+Is.pov", "+W160", "+H120", "+D", "+P", "+FN", "+Of.png", "+KFF2"], stdin=its, stdout=its, stderr=its,
+		with running([POVRAY, "+Is.pov", "+W160", "+H120", "+D", "+P", "+FN", "+Of.png", "+KFF2"], stdin=its, stdout=its, stderr=its,
 				env=dict(environment, TERM="xterm"), start_new_session=True) as process:
 			os.close(its)
-			said = b""
-			try:
-				while select.select([ours], [], [], 60)[0]:
-					said += os.read(ours, 65536)
-			except OSError: # the other side was closed
-				pass
+			said, end = b"", time.monotonic() + 60
+			with contextlib.suppress(OSError): # when the other side is closed
+				while time.monotonic() < end:
+					if select.select([ours], [], [], 1)[0]:
+						said += os.read(ours, 65536)
+			assert finish(process, 5) == 0, said.decode(errors="replace")
 			os.close(ours)
-			assert finish(process) == 0, said.decode(errors="replace")
 		assert said.count(b"preview window") == 1, f"{name}: not one line:\n{said.decode(errors='replace')}"
 		assert b"\x1b" not in said, f"{name}: it draws on the terminal"
 		assert (png("f1.png") == png("without.png")).all(), f"{name}: another picture"
