@@ -95,7 +95,7 @@ const char Footer[] =
 	"Example:\n"
 	"  tiltcost scenes/first-tilt/first-tilt.pov +Lscenes/first-tilt +W1920 +H1080 --plot cost.svg\n"
 	"  tiltcost scenes/first-tilt/first-tilt.pov +Lscenes/first-tilt +W1920 +H1080 --time 60s\n"
-	"  tiltcost scenes/sweep/sweep.ini +Lscenes/sweep --frames 5 --time 2h        (all frames of the film in two hours)\n"
+	"  tiltcost scenes/sweep/sweep.pov +Lscenes/sweep +KFF60 --frames 5 --time 2h       (all sixty frames in two hours)\n"
 	"\n"
 	"Error: RMS over pixels and channels of the linear picture, 0 to 1, against infinitely many samples. Levels: the same of\n"
 	"the sRGB-encoded picture, times 255. Times are for an otherwise idle machine; confidence is POV-Ray's default, 0.9.\n"
