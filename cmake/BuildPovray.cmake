@@ -20,9 +20,14 @@ execute_process(
 		-P "${CMAKE_CURRENT_LIST_DIR}/PatchPovray.cmake"
 	COMMAND_ERROR_IS_FATAL ANY)
 
-# What configure's answer depends on: the flags, where lens/ is and the list of source files.
+# Optimisation flags are ours, not configure's: its -ffast-math may not be had in a
+# program that promises to handle infinities, nor -march=native in one whose
+# pictures are to be the same on every machine. SDL draws the preview window.
+set(options --disable-optimiz --disable-optimiz-arch --disable-strip --with-boost-thread=boost_thread --with-libsdl)
+
+# What configure's answer depends on: the flags, its options, where lens/ is and the list of source files.
 file(GLOB ours RELATIVE "${PATCH_DIR}" "${PATCH_DIR}/tilt_lens/*.cpp")
-set(wanted "${FLAGS}|${CXX}|${CC}|${CCACHE}|${PATCH_DIR}|${LENS_LIBRARY}|${ours}")
+set(wanted "${FLAGS}|${options}|${CXX}|${CC}|${CCACHE}|${PATCH_DIR}|${LENS_LIBRARY}|${ours}")
 if(OWN_FLAGS)
 	string(APPEND wanted "|${OWN_FLAGS}")
 endif()
@@ -38,14 +43,10 @@ if(NOT configured STREQUAL wanted)
 	if(NOT result EQUAL 0)
 		message(FATAL_ERROR "POV-Ray's prebuild.sh failed; see ${WORK}/prebuild.log")
 	endif()
-	# Optimisation flags are ours, not configure's: its -ffast-math may not be had in a
-	# program that promises to handle infinities, nor -march=native in one whose
-	# pictures are to be the same on every machine.
 	execute_process(
 		COMMAND "${CMAKE_COMMAND}" -E env ASAN_OPTIONS=detect_leaks=0 # configure's test programs leak
 			./configure "COMPILED_BY=the tilt-lens project" NON_REDISTRIBUTABLE_BUILD=yes
-			--without-libsdl --without-x --disable-optimiz --disable-optimiz-arch --disable-strip
-			--with-boost-thread=boost_thread
+			${options}
 			"LIBS=-lboost_system -lboost_thread" "CPPFLAGS=-I${PATCH_DIR}" "CXXFLAGS=${FLAGS}" "CFLAGS=${FLAGS}" "LDFLAGS=${OWN_FLAGS}"
 			"CXX=${CCACHE} ${CXX}" "CC=${CCACHE} ${CC}"
 		WORKING_DIRECTORY "${src}"
@@ -56,6 +57,10 @@ if(NOT configured STREQUAL wanted)
 	file(STRINGS "${WORK}/configure.log" missing REGEX "Unsupported image formats: +[a-z]")
 	if(missing)
 		message(FATAL_ERROR "POV-Ray would lack picture formats:${missing}. Run cmake/setup.sh and try again.")
+	endif()
+	file(STRINGS "${WORK}/configure.log" windowless REGEX "X Window display: +disabled")
+	if(windowless)
+		message(WARNING "POV-Ray: no SDL 1.2, so +D will show nothing. Run cmake/setup.sh and build again for the preview window.")
 	endif()
 	# GNU make prefers these files to configure's Makefiles. The program links the lens library, and again when that is newer.
 	file(WRITE "${src}/unix/GNUmakefile" "include Makefile\nLIBS += ${LENS_LIBRARY}\npovray: ${LENS_LIBRARY}\n")

@@ -43,7 +43,7 @@ done
 
 # Everything that is linked is a dependency; the configuration is known as such.
 dpkg-deb --field "$deb" Depends > depends
-for library in libc6 libopencv-calib3d libopenexr libboost-thread; do
+for library in libc6 libopencv-calib3d libopenexr libboost-thread libsdl1.2debian; do
 	grep -q "$library" depends || fail "does not depend on $library: $(cat depends)"
 done
 dpkg-deb --info "$deb" conffiles > conffiles
