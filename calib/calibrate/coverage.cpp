@@ -101,7 +101,7 @@ std::string StanceWords(const Stance& s)
 {
 	if (s.depth_ratio < PARALLEL)
 		return "nearly parallel to the sensor";
-	return fmt::format("its {} {:.0f} % farther away than the side across", SideWords(s.recedes_deg), 100 * (s.depth_ratio - 1));
+	return fmt::format("its {} {:.0f} % farther away than what is across", SideWords(s.recedes_deg), 100 * (s.depth_ratio - 1));
 }
 
 }

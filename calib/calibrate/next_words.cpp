@@ -13,8 +13,8 @@ namespace tiltcal
 namespace
 {
 
-const struct { const char *name, *words; } NUMBERS[] = { { "image_distance", "the image distance" }, { "aperture_diameter", "the aperture" }, { "inverse_focus_distance", "the focus distance (its inverse)" },
-	{ "principal_point_u", "where the lens's axis meets the picture, sideways" }, { "principal_point_v", "where the lens's axis meets the picture, up and down" },
+const struct { const char *name, *words; } NUMBERS[] = { { "image_distance", "the image distance" }, { "aperture_diameter", "the aperture" }, { "inverse_focus_distance", "the inverse focus distance" },
+	{ "principal_point_u", "the principal point, sideways" }, { "principal_point_v", "the principal point, up and down" },
 	{ "lens_tilt", "the tilt" }, { "tilt_across", "the tilt, across its direction" } };
 
 std::string StatesText(const Calibration& c, const std::vector<size_t>& states)

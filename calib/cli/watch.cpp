@@ -134,13 +134,13 @@ private:
 			one.photograph = MeasureOne(file, run.board, run.measure, grey);
 			one.picture = Pack(grey);
 			const Stance s = StanceOf(one.photograph->photo);
-			Tell(fmt::format("{}, state {}: {}; the board {}, {:.0f} % of the picture's width, blur {:.1f} to {:.1f} px", file, state, CountText(one.photograph->photo), StanceWords(s), 100 * s.share_of_width, s.least_blur, s.most_blur));
+			Tell(fmt::format("{}, state {}: {}; the board: {}, {:.0f} % of the picture's width, blur {:.1f} to {:.1f} px", file, state, CountText(one.photograph->photo), StanceWords(s), 100 * s.share_of_width, s.least_blur, s.most_blur));
 			changed = true;
 		}
 		catch (const Error& e)
 		{
 			one.why = e.what();
-			if (!second_look)
+			if (!second_look && e.Code() == EXIT_FILE)
 				one.again = now + ONCE_MORE;
 			if (!second_look || one.why != old->second.why)
 				Tell(fmt::format("skipped: {}", one.why));
