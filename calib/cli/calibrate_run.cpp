@@ -219,6 +219,7 @@ CalibrateRun::CalibrateRun(const CalibrateWords& o, const std::string& line) : w
 	measure.threads = options.threads = o.threads;
 	options.model = ParseModel(o.model);
 	options.scene_lens = o.edges_per_photo == 0;
+	options.next_photographs = true;
 	options.poses = ParsePoses(o.poses);
 	options.refinement = ParseRefinement(o.refine);
 	options.effects = ParseEffects(o.effects);

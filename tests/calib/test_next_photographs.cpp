@@ -8,6 +8,9 @@
 #include "calibrate/coverage.h"
 #include "measure/detect.h"
 #include "measure/measure.h"
+#include "report/report_html.h"
+#include "report/report_next.h"
+#include "support/page_check.h"
 #include "support/thin_lens_picture.h"
 #include <tiltcal/calibrate.h>
 #include <tiltcal/error.h>
@@ -197,6 +200,36 @@ TEST(NextPhotographs, InclinedBoardsLackNothing)
 {
 	const Task task = TaskOf({ StateOf("untilted", 0, { { 35, 0, 620 }, { 35, 95, 600 }, { 38, 200, 640 } }, 1) });
 	EXPECT_THAT(WhatPhotographsLack(task), testing::IsEmpty());
+}
+
+void ExpectGoodPage(const std::string& html)
+{
+	const Page page = ReadPage(html);
+	EXPECT_EQ(page.complaint, "");
+	EXPECT_EQ(OutsideResource(page, html), "");
+	for (const char* const word : { "nan", "inf " })
+		EXPECT_EQ(page.text.find(word), std::string::npos) << word;
+}
+
+TEST(NextPhotographs, PagesAreWellFormed)
+{
+	Task task = PoorTask();
+	task.states[0].photos[0].file = "<b>&'\".png";
+	const Calibration c = Solved(task, true);
+	WatchNotes watch;
+	watch.on = true;
+	watch.events = { "12:00:00 <b>&'\".png: is gone" };
+	watch.waiting = "too few <photographs>";
+	watch.lacking = WhatPhotographsLack(task);
+	ExpectGoodPage(WaitingPage({}, watch, "2000-01-01"));
+	ExpectGoodPage(WaitingPage(task, watch, "2000-01-01"));
+	watch.history = { { 4, c.next.sigmas }, { 5, c.next.sigmas } };
+	const std::string html = ReportHtml(c, { "edges", "tiltcal calibrate", "2000-01-01", watch }, ReportPictures(c.task));
+	ExpectGoodPage(html);
+	EXPECT_THAT(html, HasSubstr("http-equiv=\"refresh\""));
+	EXPECT_THAT(html, HasSubstr("How the sigmas fall"));
+	EXPECT_THAT(html, HasSubstr("What to photograph next"));
+	EXPECT_THAT(NextText(c), HasSubstr("expected: sigma of"));
 }
 
 /// How a board stands, without a lens: its axes are those of the oracle, y down; a board inclined about x recedes up or down.

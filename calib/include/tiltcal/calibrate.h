@@ -90,7 +90,7 @@ struct CalibrateOptions
 	EffectChoice effects{};
 	/// Where a real lens is the answer: find the one of sixteen numbers for scenes too, which takes as long again as all the rest.
 	bool scene_lens = true;
-	bool next_photographs = true;   ///< say what to photograph next: a second or two
+	bool next_photographs = false;   ///< fill Calibration::next, what to photograph next: a second or two
 	Log log{};
 	/// 0: all processors. Sums come out in another order with another number, and results differ in their last digits.
 	int threads = 0;
