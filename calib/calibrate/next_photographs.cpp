@@ -352,6 +352,9 @@ NextPhotographs FindNextPhotographs(const Calibration& c)
 		bool best_is_poor = false;
 		for (size_t k = 0; k < design.Count(); ++k)
 		{
+			// Two of one pose see the same errors of the model.
+			if (std::count(taken.begin(), taken.end(), k))
+				continue;
 			std::vector<size_t> with = taken;
 			with.push_back(k);
 			const std::optional<double> badness = design.Badness(with);
