@@ -4,13 +4,12 @@
 
 #include "base/files.h"
 #include "base/output_place.h"
+#include "base/unfinished.h"
 #include <tiltcal/error.h>
 
 #include <fmt/format.h>
-#include <pthread.h>
 
 #include <cerrno>
-#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -36,24 +35,6 @@ void Rename(const std::string& from, const std::string& to, const std::string& f
 		Fail(file, errno);
 }
 
-/// Ctrl-C waits while files change places.
-class Uninterrupted
-{
-public:
-	Uninterrupted()
-	{
-		sigset_t all;
-		sigemptyset(&all);
-		for (const int signal : { SIGINT, SIGTERM, SIGHUP })
-			sigaddset(&all, signal);
-		pthread_sigmask(SIG_BLOCK, &all, &before);
-	}
-	~Uninterrupted() { pthread_sigmask(SIG_SETMASK, &before, nullptr); }
-
-private:
-	sigset_t before;
-};
-
 }
 
 FileSet::~FileSet()
@@ -61,7 +42,10 @@ FileSet::~FileSet()
 	std::error_code ignored;
 	for (const Entry& e : entries)
 		if (!e.temporary.empty() && !e.there)
+		{
 			fs::remove(e.temporary, ignored);
+			ForgetUnfinished(e.temporary);
+		}
 }
 
 std::string FileSet::Write(const std::string& file, const std::function<bool(const std::string&)>& write)
@@ -71,7 +55,11 @@ std::string FileSet::Write(const std::string& file, const std::function<bool(con
 	const OutputPlace place = PlaceOf(file);
 	e.place = place.path;
 	e.through = place.through;
-	e.temporary = NewTemporary(place);
+	{
+		const Uninterrupted uninterrupted;
+		e.temporary = NewTemporary(place);
+		NoteUnfinished(e.temporary);
+	}
 	entries.push_back(e);
 	bool written = false;
 	errno = 0;
@@ -147,7 +135,7 @@ void FileSet::Undo()
 
 void FileSet::Commit()
 {
-	const Uninterrupted uninterrupted;
+	const Uninterrupted uninterrupted;   // Ctrl-C waits while files change places
 	std::set<std::string> folders;
 	try
 	{
@@ -184,6 +172,7 @@ void FileSet::Commit()
 			fs::remove(e.aside, ignored);
 		if (e.through)
 			fs::remove(e.temporary, ignored);
+		ForgetUnfinished(e.temporary);
 	}
 	entries.clear();
 }

@@ -10,6 +10,7 @@
 #include "calibrate/check_photographs.h"
 #include "calibrate/check_untilted.h"
 #include "calibrate/exif_check.h"
+#include "calibrate/next_photographs.h"
 #include "calibrate/use_threads.h"
 #include "calibrate/verdict.h"
 #include "base/robust.h"
@@ -245,13 +246,8 @@ void AddBoardSize(Calibration& c)
 		}
 }
 
-}
-
-Calibration Calibrate(const Task& measured, const CalibrateOptions& o)
+Calibration Solve(const Task& measured, const CalibrateOptions& o)
 {
-	const QuietLibraries quiet;
-	const UseThreads threads(o.threads);
-	CheckTask(measured);
 	const Log& log = o.log;
 	Calibration c;
 	c.task = measured;
@@ -307,7 +303,31 @@ Calibration Calibrate(const Task& measured, const CalibrateOptions& o)
 		c.light = CheckLight(c);
 	}
 	c.verdict = Judge(c);
+	if (model != Model::PAPER && c.refined && o.next_photographs)
+		c.next = FindNextPhotographs(c);
 	return c;
+}
+
+}
+
+Calibration Calibrate(const Task& measured, const CalibrateOptions& o)
+{
+	const QuietLibraries quiet;
+	const UseThreads threads(o.threads);
+	CheckTask(measured);
+	try
+	{
+		return Solve(measured, o);
+	}
+	catch (const Error& e)
+	{
+		if (e.Code() != EXIT_REFUSED)
+			throw;
+		std::string text = e.what();
+		for (const std::string& line : WhatPhotographsLack(measured))
+			text += "\n  " + line;
+		throw Refused(text);
+	}
 }
 
 }

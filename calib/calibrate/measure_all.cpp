@@ -45,29 +45,13 @@ void LogPhoto(const Photo& photo, size_t number, size_t total, const Log& log)
 		log.Warn(fmt::format("{}: {:.0f} % of the edges have a clipped bright side, which narrows their blur: expose less", photo.file, 100 * photo.saturated_share));
 }
 
-/// Pictures seen before, by their pixels: a copy under another name or in another lossless format is none the newer.
-class SeenPictures
+size_t HashOf(const cv::Mat& grey)
 {
-public:
-	static size_t Hash(const cv::Mat& grey)
-	{
-		size_t hash = 0;
-		for (int y = 0; y < grey.rows; ++y)
-			hash = 31 * hash + std::hash<std::string_view>()({ grey.ptr<char>(y), size_t(grey.cols) * grey.elemSize() });
-		return hash;
-	}
-
-	/// Throws Refused.
-	void Add(const std::string& file, size_t hash)
-	{
-		const auto [at, is_new] = files.emplace(hash, file);
-		if (!is_new)
-			throw Refused(fmt::format("{}: has the pixels of {}: the same photograph twice makes sigmas too small, and in two states one of them is wrong; leave one out", file, at->second));
-	}
-
-private:
-	std::map<size_t, std::string> files;
-};
+	size_t hash = 0;
+	for (int y = 0; y < grey.rows; ++y)
+		hash = 31 * hash + std::hash<std::string_view>()({ grey.ptr<char>(y), size_t(grey.cols) * grey.elemSize() });
+	return hash;
+}
 
 /// All pictures come from one sensor.
 void CheckSize(Task& task, const Photo& photo)
@@ -103,41 +87,57 @@ Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, doubl
 	return MeasureAll(states, board, pitch_mm, options, {});
 }
 
+MeasuredPhotograph MeasureOne(const std::string& file, const Board& board, const MeasureOptions& o, cv::Mat& grey)
+{
+	MeasuredPhotograph out;
+	out.photo = MeasurePhoto(file, board, o.transfer, { o.any_orientation }, { o.edges_per_photo, o.edge_phase }, &grey);
+	out.hash = HashOf(grey);
+	return out;
+}
+
+TaskOfPhotographs::TaskOfPhotographs(const std::vector<StateFiles>& states, const Board& board, double pitch_mm)
+{
+	CheckPitch(pitch_mm);
+	CheckStateNames(NamesOf(states));
+	task.board = board;
+	task.pitch_mm = pitch_mm;
+	for (const StateFiles& s : states)
+		task.states.push_back({ s.name, !task.states.empty(), {} });
+}
+
+void TaskOfPhotographs::Add(size_t state, MeasuredPhotograph one)
+{
+	CheckSize(task, one.photo);
+	// By their pixels: a copy under another name or in another lossless format is none the newer.
+	const auto [at, is_new] = seen.emplace(one.hash, one.photo.file);
+	if (!is_new)
+		throw Refused(fmt::format("{}: has the pixels of {}: the same photograph twice makes sigmas too small, and in two states one of them is wrong; leave one out", one.photo.file, at->second));
+	task.states[state].photos.push_back(std::move(one.photo));
+}
+
 Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, double pitch_mm, const MeasureOptions& o, const SeePicture& see)
 {
 	const QuietLibraries quiet;
 	const UseThreads threads(o.threads);
-	CheckPitch(pitch_mm);
-	CheckStateNames(NamesOf(states));
-	Task task;
-	task.board = board;
-	task.pitch_mm = pitch_mm;
+	TaskOfPhotographs task(states, board, pitch_mm);
 	std::vector<std::pair<size_t, std::string>> files;    // state, file
-	for (const StateFiles& s : states)
-	{
-		for (const std::string& file : s.files)
-			files.emplace_back(task.states.size(), file);
-		task.states.push_back({ s.name, !task.states.empty(), {} });
-	}
-	std::vector<Photo> photos(files.size());
-	std::vector<size_t> hashes(files.size());
-	SeenPictures seen;
+	for (size_t s = 0; s < states.size(); ++s)
+		for (const std::string& file : states[s].files)
+			files.emplace_back(s, file);
+	std::vector<MeasuredPhotograph> measured(files.size());
 	InOrder(files.size(), AllThreads(), [&](size_t k)
 	{
 		cv::Mat grey;
-		photos[k] = MeasurePhoto(files[k].second, board, o.transfer, { o.any_orientation }, { o.edges_per_photo, o.edge_phase }, &grey);
-		hashes[k] = SeenPictures::Hash(grey);
+		measured[k] = MeasureOne(files[k].second, board, o, grey);
 		if (see)
 			see(k, grey);
 	}, [&](size_t k)
 	{
-		LogPhoto(photos[k], k + 1, files.size(), o.log);
-		CheckSize(task, photos[k]);
-		seen.Add(files[k].second, hashes[k]);
-		task.states[files[k].first].photos.push_back(std::move(photos[k]));
+		LogPhoto(measured[k].photo, k + 1, files.size(), o.log);
+		task.Add(files[k].first, std::move(measured[k]));
 	});
-	LogFacts(task, o.log);
-	return task;
+	LogFacts(task.Get(), o.log);
+	return task.Get();
 }
 
 void AddFlatField(Task& task, size_t state, const std::string& file, const MeasureOptions& o)

@@ -8,6 +8,9 @@
 #include <opencv2/core.hpp>
 
 #include <functional>
+#include <map>
+#include <string>
+#include <vector>
 
 namespace tiltcal
 {
@@ -15,6 +18,32 @@ namespace tiltcal
 /// Photograph `number` of all, counted from 0: its brightness in linear light (CV_32F), as it was measured. Called from any thread and
 /// in any order.
 using SeePicture = std::function<void(size_t number, const cv::Mat& grey)>;
+
+/// A photograph as MeasureAll measures it.
+struct MeasuredPhotograph
+{
+	Photo photo;
+	size_t hash = 0;   ///< of its pixels
+};
+
+/// `grey` receives its brightness in linear light. Throws Error.
+MeasuredPhotograph MeasureOne(const std::string& file, const Board& board, const MeasureOptions& options, cv::Mat& grey);
+
+/// A task, photograph by photograph. Throws as MeasureAll.
+class TaskOfPhotographs
+{
+public:
+	TaskOfPhotographs(const std::vector<StateFiles>& states, const Board& board, double pitch_mm);
+
+	/// Throws Refused, and adds nothing: of another size, or the pixels of another.
+	void Add(size_t state, MeasuredPhotograph photograph);
+
+	const Task& Get() const { return task; }
+
+private:
+	Task task;
+	std::map<size_t, std::string> seen;   ///< by hash
+};
 
 /// MeasureAll, which shows every photograph when it is measured, so that nobody reads it again. `see` may be empty.
 Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, double pitch_mm, const MeasureOptions& options, const SeePicture& see);

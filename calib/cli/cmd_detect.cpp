@@ -2,6 +2,7 @@
 
 #include "cli/commands.h"
 
+#include "program/progress.h"
 #include <tiltcal/photo.h>
 #include <tiltcal/error.h>
 #include "base/file_set.h"
@@ -56,16 +57,21 @@ void Run(const Options& o)
 		PrepareFolder(o.overlay);
 	FileSet set;
 	std::vector<Photo> photos;
+	std::string found;
+	auto progress = std::make_unique<Progress>("measuring", files.size());
 	for (const std::string& file : files)
 	{
 		cv::Mat grey;
 		photos.push_back(MeasurePhoto(file, board, transfer, o.detect, {}, &grey));
 		const Photo& p = photos.back();
 		spdlog::info("[{}/{}] {}: {}", photos.size(), files.size(), file, CountText(p));
-		fmt::print("{}: {}, {} {} left out, {}\n", file, CountText(p), p.edges_dropped, board.IsCheckerboard() ? "edges" : "arcs", RatioText(p));
+		found += fmt::format("{}: {}, {} {} left out, {}\n", file, CountText(p), p.edges_dropped, board.IsCheckerboard() ? "edges" : "arcs", RatioText(p));
 		if (!o.overlay.empty())
 			set.Text(OverlayName(o.overlay, photos.size(), file), PngOf(DrawMeasured(grey, p)));
+		progress->Done(photos.size());
 	}
+	progress.reset();
+	fmt::print("{}", found);
 	// Nothing lies beside a device.
 	if (!PlaceOf(o.csv).through)
 		set.Text(EdgesName(o.csv), EdgesCsv(photos));

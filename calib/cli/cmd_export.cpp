@@ -8,6 +8,7 @@
 #include "exchange/colmap.h"
 #include "exchange/maps.h"
 #include "exchange/scene_files.h"
+#include "program/progress.h"
 
 #include <tiltcal/error.h>
 
@@ -61,7 +62,9 @@ void ExportMaps(const Options& o, const StateCamera& camera, FileSet& set)
 	if (!o.stmap.empty())
 	{
 		const Margins margins = ParseOverscan(o.overscan, camera);
+		auto progress = std::make_unique<Progress>("working out the STMaps");
 		const double share = WriteStMaps(camera, margins, o.stmap, set);
+		progress.reset();
 		fmt::print("{0}-undistort.exr, {0}-redistort.exr: photograph {1} x {2}, undistorted {3} x {4}, which shows {5:.1f} % of the photograph\n", o.stmap, camera.width,
 			camera.height, camera.width + 2 * margins.x, camera.height + 2 * margins.y, 100 * share);
 	}

@@ -8,6 +8,7 @@
 #include "base/plain_text.h"
 #include "model/state_names.h"
 #include "prescription/glass_camera.h"
+#include "program/progress.h"
 
 #include <tiltcal/error.h>
 
@@ -139,7 +140,9 @@ void Run(const Options& o)
 	const GlassTask task = MakeTask(o);
 	if (!o.out.empty())
 		PrepareFolder(o.out);
+	auto progress = std::make_unique<Progress>("tracing the glass, fitting the camera");
 	const GlassCameras made = MakeGlassCameras(task);
+	progress.reset();
 	const std::string report = GlassReport(made);
 	fmt::print("{}", report);
 	if (o.out.empty())

@@ -6,6 +6,7 @@
 #include "base/files.h"
 #include "exchange/undistort.h"
 #include "picture/image_io.h"
+#include "program/progress.h"
 
 #include <tiltcal/error.h>
 
@@ -84,13 +85,16 @@ void Run(const Options& o)
 	const std::vector<std::string> files = Pictures(o), outputs = Outputs(o, files);
 	PrepareFolder(o.out);
 	const Resampling resampling(camera, margins, o.redistort ? Direction::REDISTORT : Direction::UNDISTORT);
+	auto progress = std::make_unique<Progress>(o.redistort ? "redistorting" : "undistorting", files.size());
 	for (size_t i = 0; i < files.size(); ++i)
 	{
 		FileSet set;
 		WriteLinear(resampling.Of(ReadLinear(files[i], transfer), files[i]), transfer, outputs[i], set);
 		set.Commit();
 		spdlog::info("{} of {}: {}", i + 1, files.size(), outputs[i]);
+		progress->Done(i + 1);
 	}
+	progress.reset();
 	if (!o.redistort)
 		fmt::print("state {}: undistorted {} x {} pixels, {:.1f} % of the photograph (--overscan auto keeps all)\n", camera.state, camera.width + 2 * margins.x,
 			camera.height + 2 * margins.y, 100 * SharePictured(camera, margins));

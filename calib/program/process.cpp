@@ -2,6 +2,7 @@
 
 #include "program/process.h"
 
+#include "base/unfinished.h"
 #include <tiltcal/error.h>
 #include "program/temporary_folder.h"
 
@@ -17,6 +18,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstring>
 #include <thread>
 #include <utility>
@@ -32,7 +34,26 @@ namespace
 volatile std::sig_atomic_t interrupted = 0;
 bool catching = false;
 
-void NoteInterrupt(int signal) { interrupted = signal; }
+bool second_ends = false;
+char ending[80] = "";   // what is said at the end
+
+void EndNow(int signal)
+{
+	if (!RemoveUnfinished(signal))
+		return;
+	if (write(STDERR_FILENO, ending, std::strlen(ending)) < 0) {}
+	std::signal(signal, SIG_DFL);
+	raise(signal);   // when the handler is left
+}
+
+void NoteInterrupt(int signal)
+{
+	if (interrupted && second_ends)
+		return EndNow(signal);
+	interrupted = signal;
+}
+
+const int INTERRUPTS[] = { SIGINT, SIGTERM, SIGHUP };
 
 double InSeconds(const timeval& time) { return double(time.tv_sec) + 1e-6 * double(time.tv_usec); }
 
@@ -122,12 +143,24 @@ struct Prepared
 
 }
 
-void CatchInterrupts()
+void EndAtInterrupts(const std::string& name)
 {
-	catching = true;
-	for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+	std::snprintf(ending, sizeof ending, "\n%s: interrupted\n", name.c_str());
+	for (const int signal : INTERRUPTS)
+		if (std::signal(signal, EndNow) == SIG_IGN)
+			std::signal(signal, SIG_IGN);
+}
+
+void CatchInterrupts(Second second)
+{
+	// With a second one to end it, the first is a wish: children go on.
+	second_ends = second == Second::ENDS;
+	catching = !second_ends;
+	for (const int signal : INTERRUPTS)
 		std::signal(signal, NoteInterrupt);
 }
+
+bool WasInterrupted() { return interrupted != 0; }
 
 void CheckInterrupt()
 {
@@ -262,7 +295,7 @@ ProcessResult RunProcess(const ProcessSetup& setup, const std::function<bool(dou
 	{
 		if (const std::optional<ProcessResult> result = process.Poll())
 			return *result;
-		if (interrupted)
+		if (catching && interrupted)
 		{
 			process.End();
 			CheckInterrupt();

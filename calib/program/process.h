@@ -23,8 +23,19 @@ struct Interrupted
 	int signal;
 };
 
-/// From now on interrupts (SIGINT, SIGTERM, SIGHUP) are noticed by RunProcess and CheckInterrupt instead of ending the program.
-void CatchInterrupts();
+/// From now on interrupts (SIGINT, SIGTERM, SIGHUP) take the files away that are being written (base/unfinished.h), say that the program
+/// `name` was interrupted, and end it by the signal: 130 for a shell after Ctrl-C. Those that are ignored, as by nohup, stay so.
+void EndAtInterrupts(const std::string& name);
+
+/// What another interrupt does.
+enum class Second { NOTHING_MORE, ENDS };
+
+/// From now on interrupts are noticed by RunProcess and CheckInterrupt instead of ending the program; where a second one ends it, by
+/// CheckInterrupt and WasInterrupted alone.
+void CatchInterrupts(Second second = Second::NOTHING_MORE);
+
+/// Whether there was one.
+bool WasInterrupted();
 
 /// Throws Interrupted when there was an interrupt.
 void CheckInterrupt();

@@ -4,10 +4,11 @@
 
 #include "base/files.h"
 #include "program/process.h"
+#include "program/progress.h"
 #include "program/spelling.h"
 
 #include <fmt/format.h>
-#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
 #include <tiltcal/error.h>
 
@@ -15,6 +16,8 @@
 #include <csignal>
 #include <cstdio>
 #include <locale>
+#include <memory>
+#include <mutex>
 
 namespace tiltcal
 {
@@ -37,6 +40,19 @@ int Fail(const std::string& name, ExitCode code, const std::string& message)
 	return code;
 }
 
+/// To stderr, above the line of progress.
+class MessageSink : public spdlog::sinks::base_sink<std::mutex>
+{
+protected:
+	void sink_it_(const spdlog::details::log_msg& message) override
+	{
+		spdlog::memory_buf_t text;
+		formatter_->format(message, text);
+		WriteAbove(text.data(), text.size());
+	}
+	void flush_() override {}
+};
+
 std::string Quoted(const std::string& word)
 {
 	const std::string plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
@@ -52,13 +68,14 @@ std::string Quoted(const std::string& word)
 
 int RunProgram(const std::string& name, const std::function<int()>& run)
 {
-	spdlog::set_default_logger(spdlog::stderr_logger_mt(name));
+	spdlog::set_default_logger(std::make_shared<spdlog::logger>(name, std::make_shared<MessageSink>()));
 	spdlog::set_pattern(name + ": %v");
 	// Options are numbers with points, whatever a preloaded library made of LC_ALL.
 	std::setlocale(LC_ALL, "C");
 	std::locale::global(std::locale::classic());
 	// Over `ulimit -f` is an error of the write, as a full disk is.
 	std::signal(SIGXFSZ, SIG_IGN);
+	EndAtInterrupts(name);
 	try
 	{
 		const int code = run();

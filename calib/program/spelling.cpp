@@ -12,7 +12,7 @@ namespace
 
 const char* const INPUTS[] = { "any_orientation", "board", "circle_diameter", "edges_per_photo", "effects", "fix", "flat_field", "model", "opencv", "out", "photo",
 	"pitch", "poses", "prior", "square", "state", "target", "transfer",
-	"untilted_free" };
+	"untilted_free", "watch" };
 
 }
 

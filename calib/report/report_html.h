@@ -7,6 +7,8 @@
 
 #include <tiltcal/calibration.h>
 
+#include "report/report_next.h"
+
 #include <opencv2/core.hpp>
 
 #include <string>
@@ -21,6 +23,7 @@ struct RunNotes
 	std::string refinement;     ///< its name
 	std::string command_line;   ///< empty: not shown
 	std::string date;
+	WatchNotes watch = {};      ///< of photographs that arrived one after the other
 };
 
 /// The overlays of a page, kept small as they come. Not safe for threads.

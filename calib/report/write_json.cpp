@@ -2,6 +2,8 @@
 
 #include "report/write_json.h"
 
+#include "report/next_json.h"
+
 #include "model/focus_words.h"
 #include "model/names.h"
 #include "lens/angles.h"
@@ -411,6 +413,8 @@ std::string CalibrationJson(const Calibration& c)
 	json["verdict"]["remarks"] = Json::array();
 	for (const Remark& remark : c.verdict.remarks)
 		json["verdict"]["remarks"].push_back({ { "grade", NameOf(remark.grade) }, { "text", remark.text } });
+	if (c.next.known)
+		json["next_photographs"] = NextPhotographsJson(c);
 	json["render"] = SolutionJson(c, c.render, c.RenderGeometry());
 	json["render"]["note"] = "the camera without distortion that the .inc files take where TiltCal_Distortion is set to 0, or where this lens needs no distortion";
 	json["program"] = "tiltcal " TILTCAL_VERSION;

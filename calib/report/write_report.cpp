@@ -9,7 +9,6 @@
 #include "base/file_set.h"
 #include "base/files.h"
 #include "program/gnuplot.h"
-#include "program/process.h"
 #include "picture/image_io.h"
 #include "report/old_set.h"
 #include "report/overlay.h"
@@ -241,7 +240,7 @@ std::string SummaryTable(const Calibration& c)
 	if (c.scene_lens)
 		out += SceneLensText(c);
 	if (c.solution.model != Model::PAPER)
-		out += VerdictText(c.verdict);
+		out += VerdictText(c.verdict) + NextText(c);
 	return out;
 }
 
@@ -249,7 +248,6 @@ void WriteEverything(const Calibration& c, const RunNotes& notes, const ReadGrey
 {
 	ReportPictures pictures(c.task);
 	FileSet set;
-	CatchInterrupts();   // so that the set takes its temporary files away
 	for (size_t s = 0; s < c.task.states.size(); ++s)
 	{
 		spdlog::info("state {}: drawing overlays and plot", c.task.states[s].name);
@@ -258,7 +256,6 @@ void WriteEverything(const Calibration& c, const RunNotes& notes, const ReadGrey
 			const cv::Mat overlay = DrawOverlay(read(s, p), c, s, p);
 			set.Text(Join(folder, fmt::format("overlay-{}-{}.png", c.task.states[s].name, p + 1)), PngOf(overlay));
 			pictures.Add(overlay);
-			CheckInterrupt();
 		}
 		PlotBlur(c, s, folder, set);
 		set.Text(Join(folder, "camera-" + c.task.states[s].name + ".inc"), CameraInc(c, s));

@@ -95,7 +95,7 @@ void HoldUnused(LensModel model, Unknowns& x, ceres::Problem& problem)
 		problem.SetManifold(x.curvature.data(), new ceres::SubsetManifold(2, { 1 }));
 }
 
-LensCovariance CovarianceOfPlanes(LensModel model, const Unknowns& x, double w_mm, const Eigen::MatrixXd& of_unknowns)
+Eigen::MatrixXd PlanesByUnknowns(LensModel model, const Unknowns& x, double w_mm)
 {
 	using At = LensCovariance::At;
 	using Number = LensCovariance::Number;
@@ -121,6 +121,12 @@ LensCovariance CovarianceOfPlanes(LensModel model, const Unknowns& x, double w_m
 			J.block<1, 3>(row, UnknownIndex::OfState(s)) = value->v.segment<3>(1).transpose();
 		}
 	}
+	return J;
+}
+
+LensCovariance CovarianceOfPlanes(LensModel model, const Unknowns& x, double w_mm, const Eigen::MatrixXd& of_unknowns)
+{
+	const Eigen::MatrixXd J = PlanesByUnknowns(model, x, w_mm);
 	return LensCovariance(J * of_unknowns * J.transpose());
 }
 

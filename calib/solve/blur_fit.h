@@ -66,7 +66,10 @@ struct UnknownIndex
 	static int OfState(size_t state) { return STATES + 3 * static_cast<int>(state); }
 };
 
-/// From the covariance of w (mm) and the unknowns, in the order of UnknownIndex, by automatic derivatives.
+/// What LensCovariance holds, by w (mm) and the unknowns in the order of UnknownIndex; automatic derivatives.
+Eigen::MatrixXd PlanesByUnknowns(LensModel model, const Unknowns& x, double w_mm);
+
+/// From the covariance of w (mm) and the unknowns, in the order of UnknownIndex.
 LensCovariance CovarianceOfPlanes(LensModel model, const Unknowns& x, double w_mm, const Eigen::MatrixXd& of_unknowns);
 
 struct BlurFit

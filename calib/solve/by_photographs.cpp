@@ -2,15 +2,13 @@
 
 #include "solve/by_photographs.h"
 
-#include <ceres/crs_matrix.h>
-#include <ceres/manifold.h>
+#include "solve/quadratic.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace tiltcal
 {
@@ -20,100 +18,6 @@ namespace
 
 /// Of all that is known in some direction, the most that one photograph may say.
 const double MOST_LEVERAGE = 0.99;
-
-/// Sum of squares to second order about the present place: J^T J and J^T r of the blocks, in their tangent spaces.
-struct Quadratic
-{
-	Eigen::MatrixXd H;
-	Eigen::VectorXd g;
-	double squares = 0;   ///< r^T r
-	int count = 0;
-};
-
-Quadratic Expand(ceres::Problem& problem, const std::vector<ceres::ResidualBlockId>& residuals, const std::vector<double*>& blocks)
-{
-	ceres::Problem::EvaluateOptions options;
-	options.residual_blocks = residuals;
-	options.parameter_blocks = blocks;
-	std::vector<double> r;
-	ceres::CRSMatrix J;
-	problem.Evaluate(options, nullptr, &r, nullptr, &J);
-	Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(J.num_rows, J.num_cols);
-	for (int row = 0; row < J.num_rows; ++row)
-		for (int k = J.rows[size_t(row)]; k < J.rows[size_t(row) + 1]; ++k)
-			dense(row, J.cols[size_t(k)]) = J.values[size_t(k)];
-	const Eigen::Map<const Eigen::VectorXd> residual(r.data(), Eigen::Index(r.size()));
-	return { dense.transpose() * dense, dense.transpose() * residual, residual.squaredNorm(), int(r.size()) };
-}
-
-/// Without the last unknowns, which follow the others.
-Quadratic Reduced(const Quadratic& q, int kept)
-{
-	const auto own = Eigen::Index(q.g.size()) - kept;
-	if (own == 0)
-		return q;
-	const Eigen::LDLT<Eigen::MatrixXd> solve(q.H.bottomRightCorner(own, own));
-	const Eigen::MatrixXd across = q.H.topRightCorner(kept, own);
-	return { q.H.topLeftCorner(kept, kept) - across * solve.solve(across.transpose()), q.g.head(kept) - across * solve.solve(q.g.tail(own)),
-		q.squares - q.g.tail(own).dot(solve.solve(q.g.tail(own))), q.count };
-}
-
-/// Free blocks that are no photograph's pose, in the order in which residuals name them: Ceres's own order is that of their addresses.
-std::vector<double*> SharedBlocks(const ceres::Problem& problem, const std::vector<ceres::ResidualBlockId>& residuals, const std::vector<PhotographBlocks>& photographs)
-{
-	std::set<const double*> done;
-	for (const PhotographBlocks& p : photographs)
-		done.insert(p.pose);
-	std::vector<double*> shared, blocks;
-	for (ceres::ResidualBlockId r : residuals)
-	{
-		problem.GetParameterBlocksForResidualBlock(r, &blocks);
-		for (double* block : blocks)
-			if (!problem.IsParameterBlockConstant(block) && done.insert(block).second)
-				shared.push_back(block);
-	}
-	return shared;
-}
-
-/// Those that are no photograph's.
-std::vector<ceres::ResidualBlockId> Others(const std::vector<ceres::ResidualBlockId>& residuals, const std::vector<PhotographBlocks>& photographs)
-{
-	std::set<ceres::ResidualBlockId> taken;
-	for (const PhotographBlocks& p : photographs)
-	{
-		taken.insert(p.residuals.begin(), p.residuals.end());
-		taken.insert(p.beside.begin(), p.beside.end());
-	}
-	std::vector<ceres::ResidualBlockId> others;
-	for (ceres::ResidualBlockId r : residuals)
-		if (!taken.count(r))
-			others.push_back(r);
-	return others;
-}
-
-/// From tangent spaces to the blocks' own numbers, held ones 0.
-Eigen::MatrixXd FromTangent(const ceres::Problem& problem, const std::vector<double*>& blocks)
-{
-	int rows = 0, columns = 0;
-	for (const double* b : blocks)
-	{
-		rows += problem.ParameterBlockSize(b);
-		columns += problem.ParameterBlockTangentSize(b);
-	}
-	Eigen::MatrixXd all = Eigen::MatrixXd::Zero(rows, columns);
-	rows = columns = 0;
-	for (const double* b : blocks)
-	{
-		const int size = problem.ParameterBlockSize(b), tangent = problem.ParameterBlockTangentSize(b);
-		Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> J = Eigen::MatrixXd::Identity(size, tangent);
-		if (const ceres::Manifold* manifold = problem.GetManifold(b))
-			manifold->PlusJacobian(b, J.data());
-		all.block(rows, columns, size, tangent) = J;
-		rows += size;
-		columns += tangent;
-	}
-	return all;
-}
 
 struct LeftOutEach
 {
@@ -184,9 +88,7 @@ std::optional<CovarianceByPhotographs> JackknifeOverPhotographs(ceres::Problem& 
 	std::vector<ceres::ResidualBlockId> residuals;
 	problem.GetResidualBlocks(&residuals);
 	const std::vector<double*> shared = SharedBlocks(problem, residuals, photographs);
-	int size = 0;
-	for (const double* b : shared)
-		size += problem.ParameterBlockTangentSize(b);
+	const int size = TangentSize(problem, shared);
 	Quadratic total{ Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size), 0, 0 };
 	// Priors.
 	if (const std::vector<ceres::ResidualBlockId> others = Others(residuals, photographs); !others.empty())
@@ -194,10 +96,7 @@ std::optional<CovarianceByPhotographs> JackknifeOverPhotographs(ceres::Problem& 
 	std::vector<Quadratic> each, predicted;
 	for (const PhotographBlocks& p : photographs)
 	{
-		std::vector<double*> blocks = shared;
-		if (!problem.IsParameterBlockConstant(p.pose))
-			blocks.push_back(p.pose);
-		predicted.push_back(Reduced(Expand(problem, p.residuals, blocks), size));
+		predicted.push_back(OfPhotograph(problem, p, shared, size));
 		each.push_back(predicted.back());
 		if (!p.beside.empty())
 		{

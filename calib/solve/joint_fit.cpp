@@ -10,6 +10,7 @@
 #include "solve/each_edge.h"
 #include "solve/edge_cost.h"
 #include "solve/prior_cost.h"
+#include "solve/quadratic.h"
 #include "solve/solve_geometry.h"
 #include "solve/least_squares.h"
 
@@ -233,6 +234,72 @@ std::optional<JointCovariance> JointFit::Covariance(Geometry& g, Unknowns& x) co
 		both.held_out = jackknife->HeldOut();
 	}
 	return both;
+}
+
+namespace
+{
+
+/// The rows of `from_tangent`, which holds `shared` one after the other, that are these blocks'; 0 where one is held.
+Eigen::MatrixXd RowsOf(const ceres::Problem& problem, const std::vector<const double*>& blocks, const std::vector<double*>& shared, const Eigen::MatrixXd& from_tangent)
+{
+	std::map<const double*, Eigen::Index> first;
+	Eigen::Index at = 0;
+	for (const double* b : shared)
+	{
+		first[b] = at;
+		at += problem.ParameterBlockSize(b);
+	}
+	Eigen::Index rows = 0;
+	for (const double* b : blocks)
+		rows += problem.ParameterBlockSize(b);
+	Eigen::MatrixXd out = Eigen::MatrixXd::Zero(rows, from_tangent.cols());
+	at = 0;
+	for (const double* b : blocks)
+	{
+		const int size = problem.ParameterBlockSize(b);
+		if (first.count(b))
+			out.middleRows(at, size) = from_tangent.middleRows(first.at(b), size);
+		at += size;
+	}
+	return out;
+}
+
+}
+
+JointInformation JointFit::Information(Geometry& g, Unknowns& x, const std::vector<size_t>& measured) const
+{
+	JointFit by_edges = *this;
+	by_edges.kind = Refinement::EDGES;
+	ceres::Problem problem;
+	const Photographs photographs = Build(by_edges, g, x, problem);
+	std::vector<PhotographBlocks> all;
+	for (const auto& [place, blocks] : photographs)
+		all.push_back(blocks);
+	std::vector<ceres::ResidualBlockId> residuals;
+	problem.GetResidualBlocks(&residuals);
+	const std::vector<double*> shared = SharedBlocks(problem, residuals, all);
+	const int size = TangentSize(problem, shared);
+	JointInformation out;
+	out.measured = Eigen::MatrixXd::Zero(size, size);
+	if (const std::vector<ceres::ResidualBlockId> others = Others(residuals, all); !others.empty())
+		out.measured += Expand(problem, others, shared).H;
+	for (const auto& [place, blocks] : photographs)
+	{
+		const Eigen::MatrixXd H = OfPhotograph(problem, blocks, shared, size).H;
+		if (place.second >= measured[place.first])
+			out.expected.push_back(H);
+		else
+			out.measured += H;
+	}
+	const Eigen::MatrixXd from_tangent = FromTangent(problem, shared);
+	Eigen::MatrixXd unknowns = RowsOf(problem, LensBlocks(g, x), shared, from_tangent);
+	unknowns.row(UnknownIndex::W) *= task.pitch_mm;
+	out.planes = PlanesByUnknowns(model, x, g.w_px * task.pitch_mm) * unknowns;
+	std::vector<const double*> points;
+	for (const StateGeometry& state : g.states)
+		points.push_back(state.principal_point.data());
+	out.principal_points = RowsOf(problem, points, shared, from_tangent);
+	return out;
 }
 
 }

@@ -35,6 +35,16 @@ struct JointCovariance
 	double held_out = 0;   ///< RMS residual of each photograph as the others predict it, its pose its own, in sigmas; 0: cannot be had
 };
 
+/// What photographs say of the lens, to second order about a solution: by what is free of all that they have in common. Information adds up;
+/// its inverse is a covariance, but for the residuals' variance; a row of `planes` and of `principal_points` takes that to what people read.
+struct JointInformation
+{
+	Eigen::MatrixXd measured;                  ///< of all photographs and what is known beforehand
+	std::vector<Eigen::MatrixXd> expected;     ///< of each further one
+	Eigen::MatrixXd planes;                    ///< in the order of LensCovariance::At
+	Eigen::MatrixXd principal_points;          ///< u and v of every state, px
+};
+
 struct JointFit
 {
 	const Task& task;
@@ -54,6 +64,9 @@ struct JointFit
 
 	/// As BlurFit's, but of everything free; also fills the sigmas of `geometry`, each with the larger of both. None: singular.
 	std::optional<JointCovariance> Covariance(Geometry& geometry, Unknowns& x) const;
+
+	/// Of the task's photographs; those from number `measured` of their state on are further ones, not taken yet, state by state.
+	JointInformation Information(Geometry& geometry, Unknowns& x, const std::vector<size_t>& measured) const;
 };
 
 }

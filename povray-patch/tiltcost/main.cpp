@@ -4,6 +4,7 @@
 
 #include <tiltcal/error.h>
 #include "base/files.h"
+#include "base/stopwatch.h"
 #include "program/process.h"
 #include "program/program.h"
 #include "tiltcost/lens_page.h"
@@ -133,10 +134,11 @@ void Run(const Options& options)
 
 	Progress progress;
 	progress.Begin("settings");
+	const tiltcal::Stopwatch time;
 	report.best = BestRows(pilot, report.pilot.machine, [&](double share)
 	{
 		tiltcal::CheckInterrupt();
-		progress.Show(fmt::format("{:.0f} %", 100 * share));
+		progress.Show(fmt::format("{:.0f} %{}", 100 * share, TimeLeft(share, time.Seconds())));
 	});
 	progress.End();
 	report.rows = TableRows(report.best, 10);

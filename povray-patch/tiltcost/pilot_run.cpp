@@ -103,7 +103,7 @@ bool PilotRenders::Watch(double seconds)
 	// The letter occurs once in a block's text.
 	const std::string grown = pilot->Next();
 	done += int(std::count(grown.begin(), grown.end(), 'b'));
-	progress.Show(fmt::format("{} of {} blocks, {:.0f} s", std::min(done, wanted), wanted, seconds));
+	progress.Show(fmt::format("{} of {} blocks, {:.0f} s{}", std::min(done, wanted), wanted, seconds, TimeLeft(double(done) / std::max(wanted, 1), seconds)));
 
 	// A camera without tilt_lens renders the whole picture: half of it is enough to know.
 	const std::string said = messages->Next();

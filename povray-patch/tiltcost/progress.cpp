@@ -2,6 +2,8 @@
 
 #include "tiltcost/progress.h"
 
+#include "program/progress.h"
+
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -9,6 +11,13 @@
 
 namespace tiltcost
 {
+
+std::string TimeLeft(double share, double seconds)
+{
+	if (!isatty(STDERR_FILENO) || !(share > 0) || share >= 1 || seconds < 1)
+		return "";
+	return ", some " + tiltcal::TimeText(seconds * (1 - share) / share) + " to go";
+}
 
 void Progress::Begin(const std::string& title)
 {

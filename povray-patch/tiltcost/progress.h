@@ -11,6 +11,9 @@
 namespace tiltcost
 {
 
+/// ", some 12 s to go" of work of which this share took so many seconds; nothing for files, logs and a share of 0 or 1.
+std::string TimeLeft(double share, double seconds);
+
 class Progress
 {
 public:

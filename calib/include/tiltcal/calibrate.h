@@ -90,13 +90,14 @@ struct CalibrateOptions
 	EffectChoice effects{};
 	/// Where a real lens is the answer: find the one of sixteen numbers for scenes too, which takes as long again as all the rest.
 	bool scene_lens = true;
+	bool next_photographs = false;   ///< fill Calibration::next, what to photograph next: a second or two
 	Log log{};
 	/// 0: all processors. Sums come out in another order with another number, and results differ in their last digits.
 	int threads = 0;
 };
 
 /// Solves everything. The paper's model is always solved too, and only refused when it was the one asked for. Then vignetting
-/// and chromatic aberration are estimated, the effects chosen and the result judged. Throws Refused, naming what to photograph;
+/// and chromatic aberration are estimated, the effects chosen and the result judged. Throws Refused, naming what to photograph (further lines: what the photographs lack);
 /// UsageError where the options contradict each other.
 TILTCAL_API Calibration Calibrate(const Task& task, const CalibrateOptions& options = {});
 

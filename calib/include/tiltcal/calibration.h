@@ -9,6 +9,7 @@
 
 #include <tiltcal/api.h>
 #include <tiltcal/frames.h>
+#include <tiltcal/next_photographs.h>
 #include <tiltcal/task.h>
 
 #include <array>
@@ -361,6 +362,7 @@ struct Calibration
 	std::vector<Effect> effects;   ///< of all; empty before they are chosen
 	LightCheck light;            ///< of the exact models
 	Verdict verdict;             ///< of the exact models; the paper's is not judged
+	NextPhotographs next;        ///< where it was asked for, of the exact models, where the joint refinement converged
 
 	/// The lens that stands for state s: near its axis the real one's where that is the answer, else the thin one.
 	bool RealLensIsUsed() const { return real_lens && real_lens->used; }

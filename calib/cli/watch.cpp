@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "cli/watch.h"
+
+#include "base/files.h"
+#include "base/stopwatch.h"
+#include "calibrate/measure_all.h"
+#include "calibrate/next_photographs.h"
+#include "calibrate/coverage.h"
+#include "calibrate/quiet.h"
+#include "calibrate/use_threads.h"
+#include "cli/watched_files.h"
+#include "program/process.h"
+#include "program/spelling.h"
+#include "report/write_report.h"
+
+#include <tiltcal/error.h>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <ctime>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <thread>
+#include <tuple>
+#include <utility>
+
+namespace tiltcal
+{
+
+namespace
+{
+
+const auto PAUSE = std::chrono::milliseconds(200);
+/// A file that cannot be read may not be whole yet, however still it stands.
+const auto ONCE_MORE = std::chrono::seconds(3);
+
+/// What became of a file.
+struct Measured
+{
+	FileStamp stamp;
+	std::optional<MeasuredPhotograph> photograph;   ///< none: `why`
+	PackedPicture picture;
+	std::string why;
+	std::optional<std::chrono::steady_clock::time_point> again;   ///< look once more then
+};
+
+/// One pass over what was there.
+struct Assembled
+{
+	Task task;
+	std::vector<std::vector<const PackedPicture*>> packed;
+	size_t photographs = 0;
+};
+
+class Watcher
+{
+public:
+	explicit Watcher(const CalibrateRun& what) : run(what), files(what.words.watch, what.states)
+	{
+		for (FieldPattern& field : run.fields)
+			if (!std::filesystem::path(field.pattern).is_absolute())
+				field.pattern = Join(run.words.watch, field.pattern);
+		fields = run.fields;
+	}
+
+	void UntilInterrupted()
+	{
+		notes.on = true;
+		Tell(fmt::format("watching {}; Ctrl-C ends", run.words.watch));
+		WriteWaiting({});
+		while (!WasInterrupted())
+		{
+			files.Look();
+			if (MeasureNew() && !files.Pending() && !WasInterrupted())
+				CalibrateAgain();
+			for (int k = 0; k < 5 && !WasInterrupted(); ++k)
+				std::this_thread::sleep_for(PAUSE);
+		}
+		Finish();
+	}
+
+private:
+	/// A line on the terminal, and on the page.
+	void Tell(const std::string& event)
+	{
+		const std::string text = SpelledAsOptions(event);
+		notes.events.push_back(fmt::format("{:%H:%M:%S} {}", fmt::localtime(std::time(nullptr)), text));
+		run.options.log.Info(notes.events.back());
+	}
+
+	/// Measures what has arrived or changed and forgets what is gone. True: the photographs are others than those calibrated last.
+	bool MeasureNew()
+	{
+		std::set<std::string> there;
+		for (const StateFiles& state : files.Settled())
+			for (const std::string& file : state.files)
+			{
+				there.insert(file);
+				if (!WasInterrupted())
+					MeasureIfNew(state.name, file);
+			}
+		for (auto at = measured.begin(); at != measured.end();)
+			if (there.count(at->first))
+				++at;
+			else
+			{
+				Tell(at->first + ": is gone");
+				changed = changed || at->second.photograph;
+				at = measured.erase(at);
+			}
+		return changed;
+	}
+
+	void MeasureIfNew(const std::string& state, const std::string& file)
+	{
+		const FileStamp stamp = files.StampOf(file);
+		const auto old = measured.find(file);
+		const auto now = std::chrono::steady_clock::now();
+		const bool second_look = old != measured.end() && old->second.stamp == stamp && old->second.again && now >= *old->second.again;
+		if (old != measured.end() && old->second.stamp == stamp && !second_look)
+			return;
+		Measured one;
+		one.stamp = stamp;
+		try
+		{
+			const QuietLibraries quiet;
+			const UseThreads threads(run.measure.threads);
+			cv::Mat grey;
+			one.photograph = MeasureOne(file, run.board, run.measure, grey);
+			one.picture = Pack(grey);
+			const Stance s = StanceOf(one.photograph->photo);
+			Tell(fmt::format("{}, state {}: {}; the board: {}, {:.0f} % of the picture's width, blur {:.1f} to {:.1f} px", file, state, CountText(one.photograph->photo), StanceWords(s), 100 * s.share_of_width, s.least_blur, s.most_blur));
+			changed = true;
+		}
+		catch (const Error& e)
+		{
+			one.why = e.what();
+			if (!second_look && e.Code() == EXIT_FILE)
+				one.again = now + ONCE_MORE;
+			if (!second_look || one.why != old->second.why)
+				Tell(fmt::format("skipped: {}", one.why));
+			changed = changed || (old != measured.end() && old->second.photograph);
+		}
+		measured[file] = std::move(one);
+	}
+
+	Assembled Assemble()
+	{
+		Assembled out;
+		TaskOfPhotographs task(files.Settled(), run.board, run.Pitch(PhotographsAlone()));
+		for (size_t s = 0; s < files.Settled().size(); ++s)
+		{
+			out.packed.emplace_back();
+			for (const std::string& file : files.Settled()[s].files)
+			{
+				const auto at = measured.find(file);
+				if (at == measured.end() || !at->second.photograph)
+					continue;
+				try
+				{
+					task.Add(s, *at->second.photograph);
+					out.packed.back().push_back(&at->second.picture);
+					++out.photographs;
+				}
+				catch (const Error& e)
+				{
+					at->second.photograph.reset();
+					Tell(fmt::format("skipped: {}", e.what()));
+				}
+			}
+		}
+		out.task = task.Get();
+		return out;
+	}
+
+	/// For EXIF.
+	std::vector<StateFiles> PhotographsAlone() const
+	{
+		std::vector<StateFiles> out;
+		for (const StateFiles& state : files.Settled())
+		{
+			out.push_back({ state.name, {} });
+			for (const std::string& file : state.files)
+				if (const auto at = measured.find(file); at != measured.end() && at->second.photograph)
+					out.back().files.push_back(file);
+		}
+		return out;
+	}
+
+	void CalibrateAgain()
+	{
+		changed = false;
+		usable = false;
+		why_not.clear();
+		Assembled now;
+		try
+		{
+			now = Assemble();
+			if (now.photographs == 0)
+				return WriteWaiting(now.task);
+			// A state to come is no state yet.
+			Task task = now.task;
+			std::vector<std::vector<const PackedPicture*>> packed = now.packed;
+			DropEmptyStates(task, packed);
+			const Stopwatch time;
+			run.fields = FieldsThatAreThere(task);
+			const Calibration c = run.Solve(task, last_seconds);
+			last_seconds = time.Seconds();
+			Remember(now.photographs, c);
+			Say(now.photographs, c);
+			run.Write(c, packed, notes);
+			last.emplace(c);
+			last_packed.clear();
+			for (const auto& state : packed)
+			{
+				last_packed.emplace_back();
+				for (const PackedPicture* picture : state)
+					last_packed.back().push_back(*picture);
+			}
+			usable = true;
+		}
+		catch (const Error& e)
+		{
+			if (e.Code() == EXIT_FILE)
+				throw;
+			why_not = e.what();
+			Tell(fmt::format("no calibration of {} photograph{} yet: {}", now.photographs, now.photographs == 1 ? "" : "s", why_not.substr(0, why_not.find('\n'))));
+			WriteWaiting(now.task);
+		}
+	}
+
+	void DropEmptyStates(Task& task, std::vector<std::vector<const PackedPicture*>>& packed) const
+	{
+		if (task.states[0].photos.empty())
+			throw Refused(fmt::format("no untilted photograph of the board yet: take those first ({})", run.states[0].patterns[0]));
+		for (size_t s = task.states.size(); s-- > 1;)
+			if (task.states[s].photos.empty())
+			{
+				task.states.erase(task.states.begin() + std::ptrdiff_t(s));
+				packed.erase(packed.begin() + std::ptrdiff_t(s));
+			}
+	}
+
+	/// Flat fields whose files have come, by the states that are there.
+	std::vector<FieldPattern> FieldsThatAreThere(const Task& task) const
+	{
+		std::vector<FieldPattern> out;
+		for (FieldPattern field : fields)
+		{
+			try
+			{
+				ExpandGlobs({ field.pattern }, field.option);
+			}
+			catch (const Error&)
+			{
+				continue;
+			}
+			for (size_t s = 0; s < task.states.size(); ++s)
+				if (task.states[s].name == run.states[field.state].name)
+					out.push_back({ s, field.option, field.pattern });
+		}
+		return out;
+	}
+
+	void Remember(size_t photographs, const Calibration& c)
+	{
+		if (!c.next.known)
+			return;
+		if (!notes.history.empty() && notes.history.back().photographs >= photographs)
+			while (!notes.history.empty() && notes.history.back().photographs >= photographs)
+				notes.history.pop_back();
+		notes.history.push_back({ photographs, c.next.sigmas });
+	}
+
+	void Say(size_t photographs, const Calibration& c)
+	{
+		std::string tilts;
+		for (size_t s = 1; s < c.task.states.size(); ++s)
+			tilts += fmt::format(", {} {:.3f} +- {:.3f} degrees", c.task.states[s].name, c.TiltOf(s).lens_tilt.value, c.TiltOf(s).lens_tilt.sigma);
+		Tell(fmt::format("calibrated from {} photographs: {}, w {:.3f} +- {:.3f} mm{}; {}", photographs, NameOf(c.verdict.grade), c.solution.w_mm.value, c.solution.w_mm.sigma, tilts,
+			c.next.known && c.next.missing.empty() ? "nothing is missing" : !c.next.photographs.empty() ? "next: " + c.next.photographs[0].text : "see report.html"));
+	}
+
+	void WriteWaiting(const Task& task)
+	{
+		notes.waiting = SpelledAsOptions(why_not.substr(0, why_not.find('\n')));
+		notes.lacking.clear();
+		for (const std::string& line : WhatPhotographsLack(task.states.empty() ? EmptyTask() : task))
+			notes.lacking.push_back(SpelledAsOptions(line));
+		WriteText(Join(run.words.out, "report.html"), WaitingPage(task, notes, TimeOfDay()));
+	}
+
+	Task EmptyTask() const
+	{
+		Task task;
+		task.board = run.board;
+		for (const StatePatterns& state : run.states)
+			task.states.push_back({ state.name, !task.states.empty(), {} });
+		return task;
+	}
+
+	/// The page loads itself no more.
+	void Finish()
+	{
+		notes.on = false;
+		if (changed)
+			CalibrateAgain();
+		if (!usable)
+		{
+			if (!changed && why_not.empty())
+				WriteWaiting({});
+			throw Refused(why_not.empty() ? "--watch: no photograph of the board has come" : why_not);
+		}
+		std::vector<std::vector<const PackedPicture*>> packed;
+		for (const auto& state : last_packed)
+		{
+			packed.emplace_back();
+			for (const PackedPicture& picture : state)
+				packed.back().push_back(&picture);
+		}
+		Tell("ended");
+		run.Write(*last, packed, notes);
+		fmt::print("{}written to {}\n", SummaryTable(*last), run.words.out);
+	}
+
+	CalibrateRun run;
+	std::vector<FieldPattern> fields;
+	WatchedFiles files;
+	std::map<std::string, Measured> measured;
+	WatchNotes notes;
+	bool changed = false, usable = false;
+	std::string why_not;
+	double last_seconds = 0;
+	std::optional<Calibration> last;
+	std::vector<std::vector<PackedPicture>> last_packed;
+};
+
+}
+
+void Watch(const CalibrateRun& run)
+{
+	if (!std::filesystem::is_directory(run.words.watch))
+		throw FileError(fmt::format("--watch {}: no such folder; give the one that the camera's photographs arrive in", run.words.watch));
+	PrepareFolder(run.words.out);
+	CatchInterrupts(Second::ENDS);
+	Watcher(run).UntilInterrupted();
+}
+
+}
