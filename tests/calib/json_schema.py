@@ -20,6 +20,8 @@ OPTIONAL = {
 }
 # Objects whose keys are names, each of which may be missing.
 MAPS = re.compile(r"^(priors|held_out_blur_px|correlations(/.*)?|covariance(/.*)?|sigma_by_photographs|tilt_told_by/(blur|geometry)_alone)$")
+# Lists of words, of any length.
+WORDS = re.compile(r"^next_photographs/(missing|photographs/\d+/states)$")
 
 
 def read(name):
@@ -78,7 +80,7 @@ def mutants_of(whole):
             yield f"{name}: of another type", copy
             parent = "/".join(map(str, path[:-1]))
             is_map = MAPS.match(parent) and not str(path[-1]).startswith("pupil_magnification")
-            if name not in OPTIONAL and not is_map:
+            if name not in OPTIONAL and not is_map and not WORDS.match(parent):
                 copy = json.loads(json.dumps(whole))
                 del at(copy, path[:-1])[path[-1]]
                 # Lists may be of any length, but for vectors.
