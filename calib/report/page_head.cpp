@@ -30,7 +30,7 @@ svg text.title { font-size: 15px; font-weight: 600 } svg text.strong { font-weig
 .photos img { width: 100%; display: block; cursor: zoom-in } .photos input { position: absolute; opacity: 0 }
 .photos input:focus-visible + img { outline: 3px solid #1565c0 }
 figure:has(input:checked) { grid-column: 1 / -1 } figure:has(input:checked) img { cursor: zoom-out }
-.key span { margin-right: 18px; white-space: nowrap } small { color: #555 }
+.key span { margin-right: 18px; display: inline-block } small { color: #555 }
 @media print { h2 { break-before: page } figure, svg { break-inside: avoid } }
 )";
 
