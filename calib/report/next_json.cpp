@@ -5,8 +5,6 @@
 namespace tiltcal
 {
 
-using Json = nlohmann::ordered_json;
-
 namespace
 {
 

@@ -3,15 +3,13 @@
 #ifndef TILTCAL_NEXT_JSON_H
 #define TILTCAL_NEXT_JSON_H
 
-#include <tiltcal/calibration.h>
-
-#include <nlohmann/json.hpp>
+#include "report/json_parts.h"
 
 namespace tiltcal
 {
 
 /// `next_photographs` of calibration.json.
-nlohmann::ordered_json NextPhotographsJson(const Calibration& calibration);
+Json NextPhotographsJson(const Calibration& calibration);
 
 }
 

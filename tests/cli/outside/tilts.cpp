@@ -14,7 +14,10 @@ try
 		for (int k = 1; k <= 6; ++k)
 			state.files.push_back(argv[1] + ("/" + state.name) + "-" + std::to_string(k) + ".jpg");
 	const tiltcal::Task task = tiltcal::MeasureAll(states, tiltcal::ParseBoard("12x9", 25), 0.02);
-	const tiltcal::Calibration calibration = tiltcal::Calibrate(task);
+	// Half of the time is the lens for scenes at other distances than the boards'.
+	tiltcal::CalibrateOptions options;
+	options.scene_lens = false;
+	const tiltcal::Calibration calibration = tiltcal::Calibrate(task, options);
 	for (size_t s = 0; s < states.size(); ++s)
 	{
 		const tiltcal::StateCamera camera = tiltcal::CameraOfState(calibration, s);

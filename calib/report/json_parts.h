@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// What the parts of calibration.json are made of.
+
+#ifndef TILTCAL_JSON_PARTS_H
+#define TILTCAL_JSON_PARTS_H
+
+#include <tiltcal/calibration.h>
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <string>
+
+namespace tiltcal
+{
+
+// Ordered: people read this file.
+using Json = nlohmann::ordered_json;
+
+/// name_unit and name_sigma_unit.
+inline void Put(Json& json, const std::string& name, const std::string& unit, const Estimate& e)
+{
+	const auto number = [](double x) { return std::isfinite(x) ? Json(x) : Json(); };
+	json[name + unit] = number(e.value);
+	json[name + "_sigma" + unit] = number(e.sigma);
+}
+
+inline void PutTilt(Json& json, const StateLens& lens)
+{
+	Put(json, "lens_tilt", "_deg", lens.lens_tilt);
+	Put(json, "tilt_direction", "_deg", lens.tilt_direction);
+}
+
+/// Null for what was not found out.
+inline Json PositiveOrNull(double x) { return std::isfinite(x) && x > 0 ? Json(x) : Json(); }
+
+}
+
+#endif
