@@ -178,8 +178,10 @@ std::vector<Corner> DetectCorners(const cv::Mat& grey, const Board& board, const
 			}
 			const int half = std::clamp(static_cast<int>(0.45 * side), 2, 100);
 			Points one{ At(points, board, i, j) };
-			cv::cornerSubPix(grey, one, cv::Size(half, half), cv::Size(-1, -1),
-				cv::TermCriteria(cv::TermCriteria::EPS + cv::TermCriteria::COUNT, 60, 1e-4));
+			// One that the finder puts beside the picture stays there; newer OpenCVs throw, by its nearest pixel.
+			if (cv::Rect(0, 0, grey.cols, grey.rows).contains(cv::Point(one[0])))
+				cv::cornerSubPix(grey, one, cv::Size(half, half), cv::Size(-1, -1),
+					cv::TermCriteria(cv::TermCriteria::EPS + cv::TermCriteria::COUNT, 60, 1e-4));
 			const cv::Point2f moved = one[0] - At(points, board, i, j);
 			if (std::hypot(moved.x, moved.y) > 0.25 * side)
 				one[0] = At(points, board, i, j);

@@ -26,8 +26,15 @@ Points Find(const cv::Mat& picture, cv::Size size, const cv::Mat& small_from_ful
 {
 	Points points;
 	cv::Mat unused;
-	if (!cv::findChessboardCornersSB(picture, size, points, flags, meta ? *meta : unused))
+	try
+	{
+		if (!cv::findChessboardCornersSB(picture, size, points, flags, meta ? *meta : unused))
+			return {};
+	}
+	catch (const cv::Exception&)   // of OpenCV 4.10, where it looks for a corner beside the picture
+	{
 		return {};
+	}
 	cv::Mat full_from_small;
 	cv::invertAffineTransform(small_from_full, full_from_small);
 	cv::transform(points, points, full_from_small);

@@ -8,12 +8,14 @@ import math
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 
 try:
 	from selenium import webdriver
 	from selenium.webdriver.common.action_chains import ActionChains
+	from selenium.webdriver.chrome.service import Service
 	from selenium.webdriver.common.by import By
 	from selenium.webdriver.common.keys import Keys
 except ImportError:
@@ -26,7 +28,8 @@ def browser():
 		options.add_argument(argument)
 	options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
 	try:
-		return webdriver.Chrome(options=options)
+		# By its path: not every selenium finds it by itself.
+		return webdriver.Chrome(options=options, service=Service(shutil.which("chromedriver")))
 	except Exception as error:
 		sys.exit(f"Chromium does not start; cmake/setup.sh installs chromium and chromium-driver: {error}")
 
