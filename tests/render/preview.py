@@ -59,7 +59,8 @@ def screen():
 	with open("xvfb.log", "wb") as log, running(["Xvfb", "-displayfd", str(its), "-noreset", "-screen", "0", "640x480x24", "-fbdir", ".", "-nolisten", "tcp"],
 			pass_fds=[its], stdout=log, stderr=log):
 		assert select.select([ours], [], [], 60)[0], "Xvfb does not start"
-		yield dict(NO_SCREEN, DISPLAY=":" + os.read(ours, 20).decode().strip())
+		# The window's place, which SDL 1.2 over SDL 2 (Debian 13) would choose itself.
+		yield dict(NO_SCREEN, DISPLAY=":" + os.read(ours, 20).decode().strip(), SDL_VIDEO_WINDOW_POS="0,0")
 
 
 def shown(width, height):
