@@ -113,6 +113,8 @@ std::string OtherWords(const LensSpec& spec)
 		Add(text, NameOf(Word::Denoise), "");
 	if(spec.area_light_grid)
 		Add(text, NameOf(Word::AreaLightGrid), "");
+	if(spec.channels)
+		Add(text, NameOf(Word::Channels), "");
 	if(spec.seed)
 		Add(text, NameOf(Word::Seed), Number(spec.seed.value));
 	return text;

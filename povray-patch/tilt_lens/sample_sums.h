@@ -199,7 +199,7 @@ struct SampleSums
 	{
 		if(count < 2)
 			return 1.0;
-		const LevelChanges c = neighbourhood > 0.0 ? Changes(neighbourhood) : Changes();
+		const LevelChanges c = Changes(neighbourhood);
 		const double fall = 2.639;              // 2^1.4, between nets' 1.1 and 1.7
 		double variance = 0.0, weight = 1.0 / (fall - 1.0);
 		for(int j = 0; j < c.changes; j++, weight /= fall)

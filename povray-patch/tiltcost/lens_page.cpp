@@ -12,8 +12,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <fstream>
-#include <iterator>
 #include <sstream>
 
 namespace tiltcost
@@ -21,12 +19,6 @@ namespace tiltcost
 
 namespace
 {
-
-std::string Contents(const std::string& file)
-{
-	std::ifstream in(file, std::ios::binary);
-	return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// The line that POV-Ray writes when the picture begins; nothing before.
 std::string WholeLine(const std::string& file)

@@ -26,12 +26,6 @@ namespace
 /// Few samples, so that slow scenes do not keep their user waiting before anything is known.
 const PilotPlan TinyPilot = {12, 16};
 
-std::string Contents(const std::string& file)
-{
-	std::ifstream in(file, std::ios::binary);
-	return {std::istreambuf_iterator<char>(in), {}};
-}
-
 /// A file that grows: what came since the last look.
 class Growing
 {
@@ -167,9 +161,8 @@ FrameRange PilotRenders::Frames()
 	// POV-Ray says how many frames it is to render before it parses the first.
 	const std::string nothing = fmt::format("{}=1,16,0.001,{}", tilt_lens::PilotVariable, folder.File("nothing"));
 	const tiltcal::ProcessResult result = tiltcal::RunProcess({command, "", {nothing}, "", log}, [&](double) { return said().rendered_frames == 0; });
+	CheckPilotRender(job, result, Contents(log));
 	const RenderLog read = said();
-	if (read.rendered_frames == 0 && result.exit_code != 0)
-		throw tiltcal::Refused(fmt::format("POV-Ray does not render {}:\n{}", job.scene, ErrorLines(Contents(log))));
 	if (read.rendered_frames <= 1)
 		throw tiltcal::Refused(fmt::format("{} is no animation of several frames, and --frames asks for one; give +KFI1 +KFF24, or leave it out", job.scene));
 	if (read.frame_step > 1)
@@ -235,6 +228,12 @@ void CheckPilotRender(const Job& job, const tiltcal::ProcessResult& result, cons
 			"If that does no harm, let it with --scene-may-write:\n{}", job.scene, ErrorLines(said)));
 	if (result.exit_code != 0 && !result.stopped)
 		throw tiltcal::Refused(fmt::format("POV-Ray does not render {}:\n{}", job.scene, ErrorLines(said)));
+}
+
+std::string Contents(const std::string& file)
+{
+	std::ifstream in(file, std::ios::binary);
+	return {std::istreambuf_iterator<char>(in), {}};
 }
 
 bool IsIniFile(const std::string& scene)

@@ -75,6 +75,9 @@ bool IsIniFile(const std::string& scene);
 /// animation, else none.
 std::vector<std::string> PilotCommand(const Job& job, const tiltcal::TemporaryFolder& folder, std::optional<int> frame = {});
 
+/// All of a file; nothing where there is none.
+std::string Contents(const std::string& file);
+
 /// Throws tiltcal::Error where POV-Ray, which said `said`, could not be run or did not render the scene.
 void CheckPilotRender(const Job& job, const tiltcal::ProcessResult& result, const std::string& said);
 

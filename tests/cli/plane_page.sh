@@ -39,7 +39,7 @@ blocks)
   lens_tilt 5  focal_length 1.2  focal_distance 9  f_stop 4
   distortion -0.01, 0.001  field_curvature -0.01  blades 5 rotation 18 curvature 0.3  vignetting natural  vignetting optical 0.9, 0.4, 0.8, -0.3
   chromatic lateral 0.0004, -0.0007 axial -0.0001, 0.0002  pupil_magnification 1.07
-  aberrations { f_stop 2.8 spherical -0.05 coma 0.1 fifth_order { 0.1, 0, 0, 0, 0, 0, 0, 0, 0, 0.02 } }  denoise  area_light_grid  seed 7
+  aberrations { f_stop 2.8 spherical -0.05 coma 0.1 fifth_order { 0.1, 0, 0, 0, 0, 0, 0, 0, 0, 0.02 } }  denoise  area_light_grid  channels  seed 7
 }
 ' "$around"
 	expect 0 s.pov +W32 +H24 --page page.html

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """preview.py CASE POVRAY WORK: what +D shows, in a window on an X server without a screen (Xvfb, which is read, typed and clicked at) and
-in a file (Display_File). Every wait has an end. Exit code 77: Xvfb or xdotool is missing."""
+in a file (Display_File). Every wait has an end."""
 import contextlib
 import glob
 import os
@@ -52,8 +52,7 @@ def screen():
 	"""The environment of a program that shall show something on a screen of 640 x 480."""
 	for tool in ("Xvfb", "xdotool"):
 		if not shutil.which(tool):
-			print(f"skipped: no {tool}; sh cmake/setup.sh installs it")
-			sys.exit(77)
+			sys.exit(f"no {tool}; sh cmake/setup.sh installs it")
 	ours, its = os.pipe()
 	# -noreset: it would close and open again when its last client goes, and SDL connects twice, one after the other.
 	with open("xvfb.log", "wb") as log, running(["Xvfb", "-displayfd", str(its), "-noreset", "-screen", "0", "640x480x24", "-fbdir", ".", "-nolisten", "tcp"],
