@@ -11,6 +11,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tempfile
 
 try:
 	from selenium import webdriver
@@ -21,6 +22,8 @@ try:
 except ImportError:
 	sys.exit(f"{sys.executable} has no selenium: cmake/setup.sh installs chromium, chromium-driver and python3-selenium")
 
+SHORT = tempfile.TemporaryDirectory(dir="/tmp", ignore_cleanup_errors=True)
+
 
 def browser():
 	options = webdriver.ChromeOptions()
@@ -28,6 +31,8 @@ def browser():
 		options.add_argument(argument)
 	options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
 	try:
+		# Chromium's profile holds a socket, and a socket's path has at most 107 characters.
+		os.environ["TMPDIR"] = SHORT.name
 		# By its path: not every selenium finds it by itself.
 		return webdriver.Chrome(options=options, service=Service(shutil.which("chromedriver")))
 	except Exception as error:
