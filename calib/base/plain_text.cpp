@@ -60,4 +60,30 @@ std::string WithUnixLines(const std::string& text)
 	return out;
 }
 
+std::string HtmlText(const std::string& text)
+{
+	std::string out;
+	for (size_t i = 0; i < text.size();)
+	{
+		const size_t length = Utf8Length(text, i);
+		const unsigned char c = static_cast<unsigned char>(text[i]);
+		if (length == 0 || c < 0x20 || c == 0x7F)
+			out += "\xEF\xBF\xBD";
+		else if (c == '&')
+			out += "&amp;";
+		else if (c == '<')
+			out += "&lt;";
+		else if (c == '>')
+			out += "&gt;";
+		else if (c == '"')
+			out += "&quot;";
+		else if (c == '\'')
+			out += "&#39;";
+		else
+			out.append(text, i, length);
+		i += std::max<size_t>(length, 1);
+	}
+	return out;
+}
+
 }

@@ -19,6 +19,9 @@ std::string CleanUtf8(const std::string& text);
 /// For comments: CleanUtf8, and control characters become U+FFFD, so that nothing ends the line.
 std::string OneLine(const std::string& text);
 
+/// For HTML and XML, in texts and in attributes' values: their five characters as entities; bytes that are no UTF-8 and control characters become U+FFFD.
+std::string HtmlText(const std::string& text);
+
 /// Without a byte order mark; lines that end with CR LF or CR end with LF.
 std::string WithUnixLines(const std::string& text);
 

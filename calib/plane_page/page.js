@@ -251,6 +251,19 @@ class PlanePage {
 }
 
 const Pages = [...document.querySelectorAll('.plane')].map((root, i) => new PlanePage(root, i));
+// A page that loads itself again (tiltcal calibrate --watch) leaves sketches as they were turned.
+const KeepViews = () => {
+	const name = `tilt-lens views ${location.pathname}`, kept = JSON.parse(sessionStorage.getItem(name) || '[]');
+	Pages.forEach((page, i) => { if (kept[i]) page.sketch.Take(kept[i]); });
+	window.addEventListener('pagehide', () => sessionStorage.setItem(name, JSON.stringify(Pages.map(page => page.sketch.View()))));
+};
+if (document.querySelector('meta[http-equiv=refresh]'))
+	try {
+		KeepViews();
+	} catch (error) {
+		// Some browsers keep nothing for files.
+	}
+
 // For the tests.
 window.PlanePages = { pages: Pages, optics: { InverseFocusDistance, RayDirection, FocalPlaneDirection, PlaneAtDistance, PlaneThroughPoint, LensNormalFromTilt, LensFromPlane,
 	PlaneFromLens, PlaneFromLensTilt, InverseImageDistance, SignedBlurWidth, AngleFromAxis, TiltDirection, BasisOfLensPlane }, SolveLens, HingeOf, SharpnessTolerance };

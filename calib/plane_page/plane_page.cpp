@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
 #include "plane_page/plane_page.h"
+
+#include "base/plain_text.h"
 #include "plane_page/texts.h"
 
 namespace tiltcal
@@ -8,21 +10,6 @@ namespace tiltcal
 
 namespace
 {
-
-std::string EscapedTitle(const std::string& text)
-{
-	std::string out;
-	for (const char c : text)
-		if (c == '&')
-			out += "&amp;";
-		else if (c == '<')
-			out += "&lt;";
-		else if (c == '>')
-			out += "&gt;";
-		else
-			out += c;
-	return out;
-}
 
 /// In JSON these stand in strings only; written so they end no script, and are well-formed XML.
 std::string EscapedJson(const std::string& json)
@@ -54,7 +41,7 @@ std::string PlanePart(const std::string& lens)
 std::string PlanePage(const std::string& title, const std::string& about, const std::string& lens)
 {
 	return "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"/><meta name=\"viewport\" content=\"width=device-width\"/><meta name=\"color-scheme\" content=\"light dark\"/><title>"
-		+ EscapedTitle(title) + ": the plane of focus</title>\n<style>\n" + PlaneStyleText + PlanePageStyleText + "</style></head>\n<body><h1>" + EscapedTitle(title) + "</h1>\n<p class=\"about\">" + about
+		+ HtmlText(title) + ": the plane of focus</title>\n<style>\n" + PlaneStyleText + PlanePageStyleText + "</style></head>\n<body><h1>" + HtmlText(title) + "</h1>\n<p class=\"about\">" + about
 		+ "</p>\n" + PlanePart(lens) + "<p class=\"plane-still\">This page draws with JavaScript, which is switched off here.</p>\n<script>\n" + PlaneScript() + "</script></body></html>\n";
 }
 

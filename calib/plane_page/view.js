@@ -67,6 +67,17 @@ class Sketch {
 		this.Draw();
 	}
 
+	// How it is turned, to be taken again.
+	View() {
+		const { azimuth, elevation, roll, zoom, pan, close } = this;
+		return { azimuth, elevation, roll, zoom, pan, close };
+	}
+
+	Take(view) {
+		Object.assign(this, view);
+		this.Draw();
+	}
+
 	Show(lens, far) {
 		this.lens = lens;
 		this.far = far;

@@ -45,32 +45,6 @@ std::vector<unsigned char> Jpeg(const cv::Mat& image, int width)
 
 }
 
-std::string Escape(const std::string& text)
-{
-	std::string out;
-	for (size_t i = 0; i < text.size();)
-	{
-		const size_t length = Utf8Length(text, i);
-		const unsigned char c = static_cast<unsigned char>(text[i]);
-		if (length == 0 || c < 0x20 || c == 0x7F)
-			out += "\xEF\xBF\xBD";
-		else if (c == '&')
-			out += "&amp;";
-		else if (c == '<')
-			out += "&lt;";
-		else if (c == '>')
-			out += "&gt;";
-		else if (c == '"')
-			out += "&quot;";
-		else if (c == '\'')
-			out += "&#39;";
-		else
-			out.append(text, i, length);
-		i += std::max<size_t>(length, 1);
-	}
-	return out;
-}
-
 std::string Number(double value, int digits)
 {
 	if (std::isnan(value))

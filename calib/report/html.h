@@ -15,10 +15,6 @@
 namespace tiltcal::html
 {
 
-/// Text for HTML and SVG, within elements and quoted attributes. Control characters and bytes
-/// that are no UTF-8, which a file name may hold, become U+FFFD.
-std::string Escape(const std::string& text);
-
 /// With so many digits behind the point; "∞" and, for what is not known, "–".
 std::string Number(double value, int digits);
 

@@ -2,6 +2,7 @@
 
 #include "report/page_view.h"
 
+#include "base/plain_text.h"
 #include "report/html.h"
 
 #include <fmt/format.h>
@@ -63,7 +64,7 @@ std::string Line(const PageView& view, const Vec3<double>& a, const Vec3<double>
 
 std::string Text(const SketchPoint& at, const std::string& text, const std::string& anchor, const std::string& style)
 {
-	return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" {}>{}</text>\n", at.x, at.y, anchor, style, html::Escape(text));
+	return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" {}>{}</text>\n", at.x, at.y, anchor, style, HtmlText(text));
 }
 
 }

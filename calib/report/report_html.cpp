@@ -3,6 +3,7 @@
 #include "report/report_html.h"
 
 #include <tiltcal/calibrate.h>
+#include "base/plain_text.h"
 #include "effects/effects.h"
 #include "model/names.h"
 #include "base/files.h"
@@ -24,7 +25,6 @@ namespace tiltcal
 namespace
 {
 
-using html::Escape;
 
 /// Photographs by state: "untilted 6, plus5 6".
 std::string Counts(const Task& task)
@@ -34,7 +34,7 @@ std::string Counts(const Task& task)
 	for (const State& state : task.states)
 	{
 		all += state.photos.size();
-		each += (each.empty() ? "" : ", ") + Escape(state.name) + " " + std::to_string(state.photos.size());
+		each += (each.empty() ? "" : ", ") + HtmlText(state.name) + " " + std::to_string(state.photos.size());
 	}
 	return fmt::format("{} ({})", all, each);
 }
@@ -54,11 +54,11 @@ std::string Summary(const Calibration& c, const RunNotes& notes)
 	rows.push_back({ "photographs", Counts(task) });
 	rows.push_back({ "picture", fmt::format("{} × {} px, pitch {:g} mm: a sensor of {:.2f} × {:.2f} mm", task.width, task.height, task.pitch_mm, task.width * task.pitch_mm, task.height * task.pitch_mm) });
 	rows.push_back({ "board", fmt::format("{}; its poses are {} the states", BoardText(task.board), c.MainGeometry().shared_poses ? "shared by" : "free in all") });
-	rows.push_back({ "model", Escape(std::string(NameOf(c.Answer())) + ": " + MeaningOf(c.Answer())) });
-	rows.push_back({ "refinement", c.solution.model == Model::PAPER ? "none" : Escape(notes.refinement) });
-	rows.push_back({ "program", "tiltcal " TILTCAL_VERSION ", " + Escape(notes.date) });
+	rows.push_back({ "model", HtmlText(std::string(NameOf(c.Answer())) + ": " + MeaningOf(c.Answer())) });
+	rows.push_back({ "refinement", c.solution.model == Model::PAPER ? "none" : HtmlText(notes.refinement) });
+	rows.push_back({ "program", "tiltcal " TILTCAL_VERSION ", " + HtmlText(notes.date) });
 	if (!notes.command_line.empty())
-		rows.push_back({ "command", "<code>" + Escape(notes.command_line) + "</code>" });
+		rows.push_back({ "command", "<code>" + HtmlText(notes.command_line) + "</code>" });
 	out += VerdictBox(c) + NextSection(c) + WatchSection(notes.watch) + "<h2>The run</h2>\n<div class=\"run\">" + html::Table(rows) + "</div>\n";
 	return out + "<h2>Numbers</h2>\n" + NumbersTables(c) + "<p><small>± is one standard deviation; f-number: those of f and d taken as independent. Directions: 0° up, 90° right. Pixel centres lie at integers, (0, 0) top left.</small></p>\n";
 }
@@ -87,7 +87,7 @@ std::string Effects(const Calibration& c)
 	{
 		const std::string plot = FalloffPlot(c, s);
 		if (!plot.empty())
-			out += "<div><h4>" + Escape(c.task.states[s].name) + "</h4>\n" + plot + "</div>\n";
+			out += "<div><h4>" + HtmlText(c.task.states[s].name) + "</h4>\n" + plot + "</div>\n";
 	}
 	return out + "</div>\n<p><small>" + fmt::format("The model leaves {:.2f} % RMS over.", 100 * FalloffOf(c).rms) + "</small></p>\n";
 }
@@ -98,7 +98,7 @@ std::string Sketches(const Calibration& c)
 		"Boards are numbered and coloured by photograph. Blue: the surface of focus inside the picture; dashed: the plane that touches it on the lens axis. "
 		"On the screen each sketch can be turned, the lens tilted, focused and stopped down, and its <code>tilt_lens</code> block copied.</p>\n";
 	for (size_t s = 0; s < c.task.states.size(); ++s)
-		out += "<h3>" + Escape(c.task.states[s].name) + "</h3>\n" + PlanePart(LensOfState(c, s)) + "<div class=\"plane-still\">" + SceneSvg(c, s) + "</div>\n";
+		out += "<h3>" + HtmlText(c.task.states[s].name) + "</h3>\n" + PlanePart(LensOfState(c, s)) + "<div class=\"plane-still\">" + SceneSvg(c, s) + "</div>\n";
 	return out;
 }
 
@@ -106,7 +106,7 @@ std::string PhotoKey(const State& state)
 {
 	std::string out = "<p class=\"key\">";
 	for (size_t p = 0; p < state.photos.size(); ++p)
-		out += fmt::format("<span><i style=\"color:{}\">■</i> {} {}</span> ", html::PhotoColour(p), p + 1, Escape(BaseName(state.photos[p].file)));
+		out += fmt::format("<span><i style=\"color:{}\">■</i> {} {}</span> ", html::PhotoColour(p), p + 1, HtmlText(BaseName(state.photos[p].file)));
 	return out + "</p>\n";
 }
 
@@ -115,7 +115,7 @@ std::string Residuals(const Calibration& c)
 	std::string out = "<h2>What the model leaves over</h2>\n<p>Noise has no pattern. Arrows that turn or spread, and strokes whose colour changes with their place or their direction, are aberrations that the model does not have.</p>\n";
 	for (size_t s = 0; s < c.task.states.size(); ++s)
 	{
-		out += "<h3>" + Escape(c.task.states[s].name) + "</h3>\n" + PhotoKey(c.task.states[s]);
+		out += "<h3>" + HtmlText(c.task.states[s].name) + "</h3>\n" + PhotoKey(c.task.states[s]);
 		out += "<div class=\"pair\">\n<div><h4>Blur width of every edge</h4>" + BlurPlot(c, s) + "</div>\n<div><h4>Corners: reprojected − measured</h4>" + CornerMap(c, s) + "</div>\n";
 		out += "<div><h4>Blur of edges across the radius (tangential focus): measured − predicted</h4>" + BlurMap(c, s, true) + "</div>\n"
 			"<div><h4>Blur of edges along the radius (sagittal focus): measured − predicted</h4>" + BlurMap(c, s, false) + "</div>\n</div>\n";
@@ -131,10 +131,10 @@ std::string Overlays(const Calibration& c, const ReportPictures& pictures)
 	size_t n = 0;
 	for (const State& state : c.task.states)
 	{
-		out += "<h3>" + Escape(state.name) + "</h3>\n<div class=\"photos\">\n";
+		out += "<h3>" + HtmlText(state.name) + "</h3>\n<div class=\"photos\">\n";
 		for (size_t p = 0; p < state.photos.size(); ++p, ++n)
 		{
-			const std::string name = Escape(BaseName(state.photos[p].file)), uri = pictures.Uri(n);
+			const std::string name = HtmlText(BaseName(state.photos[p].file)), uri = pictures.Uri(n);
 			out += "<figure>";
 			if (!uri.empty())
 				out += fmt::format("<label><input type=\"checkbox\" aria-label=\"enlarge {0}\"/><img alt=\"{0}\" src=\"{1}\"/></label>", name, uri);
@@ -159,7 +159,7 @@ std::string SigmasByPhotographs(const NamedCovariance& c)
 			at = i;
 		}
 	return fmt::format("A model's error is common to all edges of a photograph; so each photograph was left out in turn, and where the answers scatter more than the edges alone would let them, that scatter is the sigma: "
-		"here up to {:.1f} times the edges' own ({}). ", most, Escape(c.names[at]));
+		"here up to {:.1f} times the edges' own ({}). ", most, HtmlText(c.names[at]));
 }
 
 std::string Fine(const Calibration& c)
@@ -176,7 +176,7 @@ std::string Fine(const Calibration& c)
 	const std::string& name = c.task.states.back().name;
 	out += fmt::format("<h3>In POV-Ray</h3>\n<p>Each state has a file <code>camera-STATE.inc</code>; the world's unit is 1 mm. With the patched POV-Ray:</p>\n<pre>#include &quot;camera-{0}.inc&quot;\n"
 		"TiltCal_{0}(&lt;0, 0, -1000&gt;, &lt;0, 0, 0&gt;, y)   // location, look_at, sky\n// or the camera of a photograph, the board's first inner corner at the origin:\nTiltCal_{0}_Pose(1)</pre>\n"
-		"<p>{1}All numbers, with their sigmas, are in <code>calibration.json</code>.</p>\n", Escape(name),
+		"<p>{1}All numbers, with their sigmas, are in <code>calibration.json</code>.</p>\n", HtmlText(name),
 		c.RealLensIsUsed() ? "<code>#declare TiltCal_Real_Lens = 1;</code> before the include takes the real lens, else the cameras are the thin one's. " :
 		c.MainGeometry().distortion_terms ? "<code>#declare TiltCal_Distortion = 0;</code> before the include takes the camera that was fitted without distortion. " : "");
 	return out;

@@ -2,6 +2,7 @@
 
 #include "report/report_maps.h"
 
+#include "base/plain_text.h"
 #include "model/predict.h"
 #include <tiltcal/calibrate.h>
 #include "effects/effects.h"
@@ -26,12 +27,12 @@ const double WIDTH = 570;
 
 std::string Open(double height, const std::string& label)
 {
-	return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"map\" viewBox=\"0 0 {} {:.0f}\" role=\"img\" aria-label=\"{}\">\n", WIDTH, height, html::Escape(label));
+	return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"map\" viewBox=\"0 0 {} {:.0f}\" role=\"img\" aria-label=\"{}\">\n", WIDTH, height, HtmlText(label));
 }
 
 std::string Text(double x, double y, const std::string& text, const char* anchor = "start")
 {
-	return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n", x, y, anchor, html::Escape(text));
+	return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{}</text>\n", x, y, anchor, HtmlText(text));
 }
 
 /// The value below which `share` of them lie; 0 of none.

@@ -2,6 +2,7 @@
 
 #include "report/report_next.h"
 
+#include "base/plain_text.h"
 #include "calibrate/coverage.h"
 #include "calibrate/next_words.h"
 #include "report/html.h"
@@ -19,7 +20,6 @@ namespace tiltcal
 namespace
 {
 
-using html::Escape;
 
 const char* const NOTHING = "nothing is missing";
 
@@ -93,7 +93,7 @@ std::string SigmaTable(const NextPhotographs& next)
 	{
 		const ExpectedSigma& s = next.sigmas[g];
 		const auto cell = [&](double value) { return fmt::format(value > s.wanted ? "<b>{:.2g}</b>" : "{:.2g}", value); };
-		rows.push_back({ Escape(NameForPeople(s.name) + ", " + s.unit), fmt::format("{:.2g}", s.wanted), cell(s.now) });
+		rows.push_back({ HtmlText(NameForPeople(s.name) + ", " + s.unit), fmt::format("{:.2g}", s.wanted), cell(s.now) });
 		for (const NextPhotograph& photograph : next.photographs)
 			rows.back().push_back(cell(photograph.sigmas[g].then));
 	}
@@ -104,7 +104,7 @@ std::string List(const std::vector<std::string>& lines, const char* kind)
 {
 	std::string out = fmt::format("<{}>\n", kind);
 	for (const std::string& line : lines)
-		out += "<li>" + Escape(line) + "</li>\n";
+		out += "<li>" + HtmlText(line) + "</li>\n";
 	return out + fmt::format("</{}>\n", kind);
 }
 
@@ -113,7 +113,7 @@ std::string Events(const WatchNotes& notes)
 	std::string out = "<h3>What happened</h3>\n<pre>";
 	const size_t most = 40, first = notes.events.size() > most ? notes.events.size() - most : 0;
 	for (size_t k = notes.events.size(); k > first; --k)
-		out += Escape(notes.events[k - 1]) + "\n";
+		out += HtmlText(notes.events[k - 1]) + "\n";
 	return out + "</pre>\n";
 }
 
@@ -125,7 +125,7 @@ std::string SeenTable(const Task& task)
 		for (const Photo& photo : state.photos)
 		{
 			const Stance s = StanceOf(photo);
-			rows.push_back({ Escape(photo.file), Escape(state.name), Escape(StanceWords(s)), fmt::format("{:.0f} %", 100 * s.share_of_width), fmt::format("{:.1f} to {:.1f}", s.least_blur, s.most_blur) });
+			rows.push_back({ HtmlText(photo.file), HtmlText(state.name), HtmlText(StanceWords(s)), fmt::format("{:.0f} %", 100 * s.share_of_width), fmt::format("{:.1f} to {:.1f}", s.least_blur, s.most_blur) });
 		}
 	return rows.size() > 1 ? html::Table(rows) : "<p>No photograph of the board yet.</p>\n";
 }
@@ -166,7 +166,7 @@ std::string NextSection(const Calibration& c)
 		return "";
 	std::string out = "<h2>What to photograph next</h2>\n";
 	if (c.next.missing.empty())
-		out += fmt::format("<p><b>Nothing is missing</b>{}.</p>\n", c.next.photographs.empty() ? "" : ": " + Escape(WhatIsLeftToGain(c.next)));
+		out += fmt::format("<p><b>Nothing is missing</b>{}.</p>\n", c.next.photographs.empty() ? "" : ": " + HtmlText(WhatIsLeftToGain(c.next)));
 	else
 		out += "<p>Missing:</p>\n" + List(c.next.missing, "ul");
 	if (c.next.photographs.empty())
@@ -194,7 +194,7 @@ std::string WaitingPage(const Task& task, const WatchNotes& notes, const std::st
 	for (const State& state : task.states)
 		photographs += state.photos.size();
 	std::string out = PageHead(notes.on) + "<h1>Calibration of a tilted lens</h1>\n<div class=\"verdict poor\"><b>No calibration yet</b>";
-	out += photographs ? ": " + Escape(notes.waiting) : std::string(": waiting for the first photograph.");
+	out += photographs ? ": " + HtmlText(notes.waiting) : std::string(": waiting for the first photograph.");
 	out += "</div>\n";
 	if (!notes.lacking.empty())
 		out += "<h2>What to photograph next</h2>\n" + List(notes.lacking, "ul");
@@ -203,7 +203,7 @@ std::string WaitingPage(const Task& task, const WatchNotes& notes, const std::st
 		out += "<div class=\"pair\">\n<div>" + PictureSvg(task, {}) + "</div>\n<div>" + SeenTable(task) + "</div>\n</div>\n";
 	else
 		out += SeenTable(task);
-	return out + Events(notes) + "<p><small>tiltcal " TILTCAL_VERSION ", " + Escape(date) + "</small></p>\n</body></html>\n";
+	return out + Events(notes) + "<p><small>tiltcal " TILTCAL_VERSION ", " + HtmlText(date) + "</small></p>\n</body></html>\n";
 }
 
 }

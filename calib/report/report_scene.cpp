@@ -2,6 +2,7 @@
 
 #include "report/report_scene.h"
 
+#include "base/plain_text.h"
 #include "lens/angles.h"
 #include "model/focus_words.h"
 #include "report/html.h"
@@ -51,7 +52,7 @@ public:
 	std::string Svg() const
 	{
 		return fmt::format("<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"sketch\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n",
-			WIDTH, height, html::Escape("Camera, boards and surface of focus of " + c.task.states[state].name)) + Side() + FromAbove() + CameraAlone() + "</svg>\n";
+			WIDTH, height, HtmlText("Camera, boards and surface of focus of " + c.task.states[state].name)) + Side() + FromAbove() + CameraAlone() + "</svg>\n";
 	}
 
 private:

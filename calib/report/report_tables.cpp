@@ -2,6 +2,7 @@
 
 #include "report/report_tables.h"
 
+#include "base/plain_text.h"
 #include "model/focus_words.h"
 #include "model/names.h"
 #include "model/predict.h"
@@ -24,7 +25,6 @@ namespace tiltcal
 namespace
 {
 
-using html::Escape;
 using html::Number;
 using html::WithSigma;
 using Rows = std::vector<std::vector<std::string>>;
@@ -51,7 +51,7 @@ std::string PointText(const Point& at, const Point& sigma, const std::string& un
 std::string FocusText(const StateLens& lens)
 {
 	const std::optional<std::string> words = FocusWords(InverseFocus(lens));
-	return words ? Escape(*words) : WithSigma(lens.focus_distance, "mm", 1);
+	return words ? HtmlText(*words) : WithSigma(lens.focus_distance, "mm", 1);
 }
 
 double RmsBlur(const Calibration& c, size_t s, size_t p)
@@ -74,7 +74,7 @@ Rows StateRows(const Calibration& c)
 		const StateCamera camera = FittedCamera(c, s);
 		const StateCameraSigma& sigma = camera.sigma;
 		const bool tilted = c.task.states[s].tilted || (c.task.untilted_free && c.solution.model != Model::PAPER);
-		rows.push_back({ Escape(camera.state), tilted ? WithSigma(c.TiltOf(s).lens_tilt, "°") : "none",
+		rows.push_back({ HtmlText(camera.state), tilted ? WithSigma(c.TiltOf(s).lens_tilt, "°") : "none",
 			tilted ? WithSigma(c.TiltOf(s).tilt_direction, "°") : "–",
 			tilted ? WithSigma({ camera.focal_plane_tilt_deg, sigma.focal_plane_tilt_deg }, "°") : "parallel",
 			FocusText(c.solution.states[s]), WithSigma({ camera.focal_length_mm, sigma.focal_length_mm }, "mm"), WithSigma(FNumber(camera), ""),
@@ -141,7 +141,7 @@ std::string VerdictBox(const Calibration& c)
 	const Verdict& verdict = c.verdict;
 	std::string remarks;
 	for (const Remark& r : verdict.remarks)
-		remarks += fmt::format("<li class=\"{}\"><b>{}</b> {}</li>\n", NameOf(r.grade), r.grade == Grade::GOOD ? "note:" : r.grade == Grade::FAIR ? "fair:" : "poor:", Escape(r.text));
+		remarks += fmt::format("<li class=\"{}\"><b>{}</b> {}</li>\n", NameOf(r.grade), r.grade == Grade::GOOD ? "note:" : r.grade == Grade::FAIR ? "fair:" : "poor:", HtmlText(r.text));
 	if (!remarks.empty())
 		remarks = "<ul>\n" + remarks + "</ul>\n";
 	return fmt::format("<div class=\"verdict {0}\"><b>Verdict: {0}</b>\n{1}</div>\n", NameOf(verdict.grade), remarks);
@@ -159,7 +159,7 @@ std::string EvidenceTable(const Calibration& c)
 		return "";
 	Rows rows{ { "lens tilt told by" } };
 	for (size_t s = 1; s < c.solution.states.size(); ++s)
-		rows[0].push_back(Escape(c.task.states[s].name));
+		rows[0].push_back(HtmlText(c.task.states[s].name));
 	const auto add = [&](const char* name, const std::vector<StateLens>& states)
 	{
 		rows.push_back({ name });
@@ -192,10 +192,10 @@ std::string EffectsTable(const Calibration& c)
 		const bool known = e.failure.empty();
 		std::string values;
 		for (const auto& [name, value] : e.values)
-			values += (values.empty() ? "" : "<br/>") + Escape(name) + " " + (value.sigma > 0 ? WithSigma(value, "") : fmt::format("{:g}", value.value));
+			values += (values.empty() ? "" : "<br/>") + HtmlText(name) + " " + (value.sigma > 0 ? WithSigma(value, "") : fmt::format("{:g}", value.value));
 		rows.push_back({ NameOf(e.id), known && !values.empty() ? values : "–", known && e.sigmas > 0 ? Number(e.sigmas, 1) + " sigma" : "–",
 			known && e.held_out_without > 0 ? fmt::format("{:.3g}", e.held_out_without) : "–", known && e.held_out_with > 0 ? fmt::format("{:.3g}", e.held_out_with) : "–",
-			known && e.held_out_with > 0 ? Escape(e.unit) : "–", e.used ? "<b>yes</b>" : "no", Escape(e.why) + (e.note.empty() ? "" : "<br/>" + Escape(e.note)) });
+			known && e.held_out_with > 0 ? HtmlText(e.unit) : "–", e.used ? "<b>yes</b>" : "no", HtmlText(e.why) + (e.note.empty() ? "" : "<br/>" + HtmlText(e.note)) });
 	}
 	return "<div class=\"wide effects\">" + html::Table(rows) + "</div>\n";
 }
@@ -206,13 +206,13 @@ std::string ModelsTable(const Calibration& c)
 		return "";
 	Rows rows{ { "model", "blur of photographs left out, RMS" } };
 	for (size_t s = 1; s < c.task.states.size(); ++s)
-		rows[0].push_back(Escape(c.task.states[s].name));
+		rows[0].push_back(HtmlText(c.task.states[s].name));
 	rows[0].push_back("seconds");
 	const auto add = [&](Model model, const std::string& failure, const std::string& held_out, double seconds, const auto& lens)
 	{
 		rows.push_back({ std::string(NameOf(model)) + (model == c.Answer() ? " (taken)" : "") });
 		if (!failure.empty())
-			rows.back().push_back("no answer: " + Escape(failure));
+			rows.back().push_back("no answer: " + HtmlText(failure));
 		else
 		{
 			rows.back().push_back(held_out);
@@ -252,7 +252,7 @@ std::string PhotographsTable(const Calibration& c)
 			const auto check = std::find_if(c.photographs.begin(), c.photographs.end(), [&](const PhotographCheck& k) { return k.state == s && k.photo == p; });
 			const bool odd_places = check != c.photographs.end() && check->odd_places, odd_blur = check != c.photographs.end() && check->odd_blur;
 			const auto mark = [](const std::string& text, bool odd) { return odd ? "<b>" + text + " stands out</b>" : text; };
-			rows.push_back({ fmt::format("<i style=\"color:{}\">■</i> {} {}", html::PhotoColour(p), p + 1, Escape(BaseName(photo.file))), Escape(c.task.states[s].name), mark(Number(g.states[s].photo_rms[p], 3), odd_places),
+			rows.push_back({ fmt::format("<i style=\"color:{}\">■</i> {} {}", html::PhotoColour(p), p + 1, HtmlText(BaseName(photo.file))), HtmlText(c.task.states[s].name), mark(Number(g.states[s].photo_rms[p], 3), odd_places),
 				mark(Number(RmsBlur(c, s, p), 3), odd_blur), std::to_string(photo.edges.size()), std::to_string(photo.edges_dropped), Number(ratios.least, 3), Number(ratios.median, 3), Number(ratios.most, 3),
 				known && s > 0 ? Number(left->tilt_change, 3) + "°" : "–", known ? Number(left->rms_blur, 3) : "–" });
 		}
@@ -275,11 +275,11 @@ std::string CorrelationTable(const Calibration& c)
 		return "";
 	std::string out = "<div class=\"wide\"><table class=\"correlation\">\n<tr><th></th>";
 	for (const std::string& name : names)
-		out += "<th>" + Escape(name) + "</th>";
+		out += "<th>" + HtmlText(name) + "</th>";
 	out += "</tr>\n";
 	for (const std::string& row : names)
 	{
-		out += "<tr><th>" + Escape(row) + "</th>";
+		out += "<tr><th>" + HtmlText(row) + "</th>";
 		for (const std::string& column : names)
 		{
 			const auto found = std::find_if(c.solution.correlations.begin(), c.solution.correlations.end(),
@@ -313,7 +313,7 @@ std::string PriorsTable(const Calibration& c)
 		case Quantity::APERTURE_DIAMETER: found = s.aperture_diameter; break;
 		}
 		rows.push_back({ prior.Name(), prior.sigma > 2e-6 * std::abs(prior.value) ? WithSigma({ prior.value, prior.sigma }, "") : fmt::format("{:g}, fixed", prior.value),
-			prior.quantity == Quantity::FOCUS_DISTANCE ? Escape(FocusWords(InverseFocus(s.states[0])).value_or(WithSigma(found, ""))) : WithSigma(found, "") });
+			prior.quantity == Quantity::FOCUS_DISTANCE ? HtmlText(FocusWords(InverseFocus(s.states[0])).value_or(WithSigma(found, ""))) : WithSigma(found, "") });
 	}
 	return html::Table(rows);
 }

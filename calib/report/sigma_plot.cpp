@@ -2,6 +2,7 @@
 
 #include "report/sigma_plot.h"
 
+#include "base/plain_text.h"
 #include "calibrate/next_words.h"
 #include "report/html.h"
 
@@ -81,7 +82,7 @@ std::string SigmaPlot(const std::vector<SigmasOfMany>& history)
 				if (s.name == last[k].name)
 					path += fmt::format("{}{:.1f} {:.1f} ", path.empty() ? "M" : "L", a.X(double(h.photographs)), a.Y(Ratio(s)));
 		out += fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"2\"/>\n", path, html::PhotoColour(k));
-		labels.emplace_back(a.Y(Ratio(last[k])), fmt::format("fill=\"{}\">{}", html::PhotoColour(k), html::Escape(NameForPeople(last[k].name))));
+		labels.emplace_back(a.Y(Ratio(last[k])), fmt::format("fill=\"{}\">{}", html::PhotoColour(k), HtmlText(NameForPeople(last[k].name))));
 	}
 	std::sort(labels.begin(), labels.end());
 	double above = TOP - 10;

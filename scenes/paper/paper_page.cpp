@@ -8,6 +8,7 @@
 
 #include <tiltcal/error.h>
 #include "base/files.h"
+#include "base/plain_text.h"
 #include "program/gnuplot.h"
 #include "report/html.h"
 #include "picture/image_io.h"
@@ -220,7 +221,7 @@ std::string SvgImage(const std::string& file, const std::string& alt)
 		const bool plain = std::isalnum(static_cast<unsigned char>(c)) || std::string("-_.!~*()/:;=@,+ ").find(c) != std::string::npos;
 		uri += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
 	}
-	return fmt::format("<img class=\"plot\" alt=\"{}\" src=\"{}\"/>\n", tiltcal::html::Escape(alt), uri);
+	return fmt::format("<img class=\"plot\" alt=\"{}\" src=\"{}\"/>\n", tiltcal::HtmlText(alt), uri);
 }
 
 void WritePage(const std::string& out)

@@ -2,6 +2,7 @@
 
 #include "paper_page_parts.h"
 
+#include "base/plain_text.h"
 #include "report/html.h"
 
 #include <fmt/format.h>
@@ -128,15 +129,15 @@ std::string ReproduceSection(const Json& results)
 	for (const Json& step : results.at("steps"))
 	{
 		total += double(step.at("seconds"));
-		rows.push_back({ tiltcal::html::Escape(step.at("text")), Number(step.at("seconds"), 0) });
+		rows.push_back({ tiltcal::HtmlText(step.at("text")), Number(step.at("seconds"), 0) });
 	}
 	rows.push_back({ "all", Number(total, 0) });
 	return "<h2>How to reproduce this page</h2>\n<pre>sh cmake/setup.sh\ncmake --preset release &amp;&amp; cmake --build --preset release &amp;&amp; cmake --build --preset paper</pre>\n"
 		+ fmt::format("<p>Made {} with tiltcal {} and POV-Ray {} (patched), {} threads, {}. Photographs: <code>{}</code> ({}). Samples a pixel: {} for the boxes, {} for the closed loop’s boards, "
 			"{} in the table of effects. Every number on this page is in <code>results.json</code> beside it, computed in this run; only the paper’s own are typed in "
 			"(<code>scenes/paper/paper_published.h</code>). Another set of photographs: <code>-DTILT_LENS_PHOTOS=DIR</code>; more samples: <code>-DTILT_LENS_DEMO_SAMPLES=512</code>.</p>\n",
-			tiltcal::html::Escape(c.at("date")), tiltcal::html::Escape(c.at("tiltcal")), tiltcal::html::Escape(c.at("povray")), int(c.at("threads")),
-			tiltcal::html::Escape(c.at("processor")), tiltcal::html::Escape(c.at("photos")), tiltcal::html::Escape(c.at("format")), int(c.at("samples")),
+			tiltcal::HtmlText(c.at("date")), tiltcal::HtmlText(c.at("tiltcal")), tiltcal::HtmlText(c.at("povray")), int(c.at("threads")),
+			tiltcal::HtmlText(c.at("processor")), tiltcal::HtmlText(c.at("photos")), tiltcal::HtmlText(c.at("format")), int(c.at("samples")),
 			int(c.at("board_samples")), int(c.at("effect_samples")))
 		+ tiltcal::html::Table(rows) + "<p><small>The step that was under way when these were written, the measuring itself, is not among them.</small></p>\n";
 }

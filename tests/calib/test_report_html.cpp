@@ -3,6 +3,7 @@
 // report.html of synthetic calibrations: well-formed, self-contained, complete, and the sketch against Merklinger's hinge rule.
 
 #include <tiltcal/calibrate.h>
+#include "base/plain_text.h"
 #include "plane_page/plane_page.h"
 #include "report/html.h"
 #include "support/page_check.h"
@@ -208,14 +209,14 @@ TEST(ReportHtml, SketchOfEveryPlane)
 
 TEST(Html, EscapesWhatMarkupWouldTakeForItsOwn)
 {
-	EXPECT_EQ(html::Escape("<b>&'\".png"), "&lt;b&gt;&amp;&#39;&quot;.png");
-	EXPECT_EQ(html::Escape("caf\xC3\xA9"), "caf\xC3\xA9");
+	EXPECT_EQ(HtmlText("<b>&'\".png"), "&lt;b&gt;&amp;&#39;&quot;.png");
+	EXPECT_EQ(HtmlText("caf\xC3\xA9"), "caf\xC3\xA9");
 	// A byte that is no UTF-8, half a character, an overlong slash, a surrogate, a control character.
-	EXPECT_EQ(html::Escape("a\xE9z"), "a\xEF\xBF\xBDz");
-	EXPECT_EQ(html::Escape("a\xC3"), "a\xEF\xBF\xBD");
-	EXPECT_EQ(html::Escape("\xC0\xAF"), "\xEF\xBF\xBD\xEF\xBF\xBD");
-	EXPECT_EQ(html::Escape("\xED\xA0\x80"), "\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD");
-	EXPECT_EQ(html::Escape("\x1B[0m"), "\xEF\xBF\xBD[0m");
+	EXPECT_EQ(HtmlText("a\xE9z"), "a\xEF\xBF\xBDz");
+	EXPECT_EQ(HtmlText("a\xC3"), "a\xEF\xBF\xBD");
+	EXPECT_EQ(HtmlText("\xC0\xAF"), "\xEF\xBF\xBD\xEF\xBF\xBD");
+	EXPECT_EQ(HtmlText("\xED\xA0\x80"), "\xEF\xBF\xBD\xEF\xBF\xBD\xEF\xBF\xBD");
+	EXPECT_EQ(HtmlText("\x1B[0m"), "\xEF\xBF\xBD[0m");
 }
 
 TEST(Html, NumbersAreNeverNaN)

@@ -244,6 +244,7 @@ def page(driver, file):
 
 def report(driver, file):
 	"""report.html: a live sketch for every state, the still ones on paper and without scripts."""
+	keeps_views(driver, file)
 	p = opened(driver, file)
 	is_sound(driver, file)
 	states = driver.find_elements(By.CSS_SELECTOR, ".plane")
@@ -270,6 +271,21 @@ def report(driver, file):
 	driver.execute_cdp_cmd("Emulation.setScriptExecutionDisabled", {"value": True})
 	driver.refresh()
 	assert all(svg.is_displayed() for svg in driver.find_elements(By.CSS_SELECTOR, ".plane-still svg.sketch")), "without scripts"
+
+
+def keeps_views(driver, file):
+	"""A page that loads itself again, as --watch writes it, shows its sketches as they were turned; others begin anew."""
+	reloading = pathlib.Path(file).with_name("reloading.html")
+	reloading.write_text(pathlib.Path(file).read_text().replace("<title>", '<meta http-equiv="refresh" content="1000"/><title>', 1))
+	for page, stays in ((reloading, True), (pathlib.Path(file), False)):
+		opened(driver, page)
+		second = Page(driver, 1)
+		first = second.view()
+		second.js("page.sketch.Turn(0.3, 0.1); page.sketch.Zoom(1.5); page.sketch.Move(9, -4)")
+		turned = second.view(), second.js("return page.sketch.pan")
+		driver.refresh()
+		again = Page(driver, 1)
+		assert ((again.view(), again.js("return page.sketch.pan")) == turned) == stays and (stays or again.view() == first), page
 
 
 def blocks(driver, file, tiltcost, povray, scene):

@@ -2,21 +2,13 @@
 # usage: plane_page.sh CASE PYTHON TILTCAL TILTCOST POVRAY CASES PHOTOS WORK
 # Makes a page in a fresh folder WORK and tries it in headless Chromium.
 set -u
+here=$(cd "$(dirname "$0")" && pwd)
 case=$1 python=$2 tiltcal=$3 tiltcost=$4 povray=$5 cases=$6 photos=$7 work=$8
 rm -rf "$work" && mkdir -p "$work/tmp" "$work/home" && cd "$work" || exit 99
 TMPDIR=$work/tmp; HOME=$work/home; export TMPDIR HOME
-here=$(dirname "$0")
 
-fail() { echo "FAIL: $*"; cat out err 2>/dev/null; exit 1; }
+. "$here/tiltcost_says.sh"
 try() { "$python" "$here/plane_page.py" "$@" || fail "$*"; }
-expect() { # expect CODE ARGUMENT...
-	want=$1; shift
-	"$tiltcost" --povray "$povray" "$@" >out 2>err
-	got=$?
-	[ "$got" = "$want" ] || fail "exit code $got, expected $want: tiltcost $*"
-	[ -z "$(ls tmp)" ] || fail "a temporary folder is left"
-}
-says() { grep -q -e "$1" err || fail "stderr does not say '$1'"; }
 scene() { # scene FILE LENS AROUND
 	printf '#version 3.7;\nglobal_settings { assumed_gamma 1 }\ncamera {\n%s\n%s }\nsphere { <0, 0, 7>, 1 pigment { rgb 1 } finish { ambient 1 } }\n' "$2" "$3" >"$1"
 }
@@ -30,7 +22,7 @@ lens='tilt_lens {
 case $case in
 page)
 	scene "a <b>&amp; scene.pov" "$lens" "$around"
-	expect 0 "a <b>&amp; scene.pov" +W32 +H24 --page page.html; [ ! -s out ] || fail "stdout"
+	expect 0 "a <b>&amp; scene.pov" +W32 +H24 --page page.html; silent
 	try page page.html ;;
 formulas) scene s.pov "$lens" "$around"; expect 0 s.pov +W32 +H24 --page page.html; try formulas page.html "$cases" ;;
 blocks)
@@ -45,7 +37,7 @@ blocks)
 	expect 0 s.pov +W32 +H24 --page page.html
 	try blocks page.html "$tiltcost" "$povray" s.pov ;;
 usage)
-	scene s.pov "$lens" "$around"; refuses() { want=$1 text=$2; shift 2; expect "$want" "$@"; says "$text"; [ ! -s out ] || fail stdout; }
+	scene s.pov "$lens" "$around"
 	refuses 2 "goes with none of" s.pov --page page.html --time 3s
 	refuses 2 "does not end in .html" s.pov --page page.pdf
 	refuses 3 "nowhere" s.pov --page nowhere/page.html

@@ -2,23 +2,13 @@
 # usage: tiltcost.sh CASE TILTCOST POVRAY WORK
 # Runs one case in a fresh folder WORK; exits 0 when the program behaved as documented.
 set -u
+here=$(cd "$(dirname "$0")" && pwd)
 case=$1 tiltcost=$2 povray=$3 work=$4
 rm -rf "$work" && mkdir -p "$work/tmp" && cd "$work" || exit 99
 # Temporary folders must be gone afterwards.
 TMPDIR=$work/tmp; export TMPDIR
 
-fail() { echo "FAIL: $*"; echo "--- stdout"; cat out; echo "--- stderr"; cat err; exit 1; }
-expect() { # expect CODE ARGUMENT...
-	want=$1; shift
-	"$tiltcost" --povray "$povray" "$@" >out 2>err
-	got=$?
-	[ "$got" = "$want" ] || fail "exit code $got, expected $want: tiltcost $*"
-	[ -z "$(ls tmp)" ] || fail "a temporary folder is left"
-}
-says() { grep -q -e "$1" err || fail "stderr does not say '$1'"; }
-prints() { grep -q -e "$1" out || fail "stdout does not say '$1'"; }
-silent() { [ ! -s out ] || fail "an error must print nothing on stdout"; }
-refuses() { want=$1 text=$2; shift 2; expect "$want" "$@"; says "$text"; silent; }
+. "$here/tiltcost_says.sh"
 
 scene() { # scene FILE CAMERA
 	cat >"$1" <<END
