@@ -49,10 +49,11 @@ inline float UpTo(float range, float x) { return std::min(range, std::max(0.0f, 
 /// Two parts of a band of the picture, with margins, and what is best so far.
 struct Band
 {
-	PixelPlane first[3], later[3], mean[PictureChannels];
+	PixelPlane first[3], later[3], mean[PictureChannels], share;
+	PixelPlane seen_first[3], seen_later[3];    // up to ChoiceRange
 	PixelPlane variance;                // of the mean as chosen by, own estimate, smoothed
 	PixelPlane linear;                  // the same of all its light: what of it neighbours get
-	PixelPlane cost, best[PictureChannels], best_first[3], best_later[3];
+	PixelPlane cost, best[PictureChannels], best_first[3], best_later[3];   // best: of red, green and blue once all kernels are tried
 	bool used[PictureChannels];         // not 0 everywhere, as transparency mostly is
 	PixelPlane rows, smooth, smooth_first[3], smooth_later[3], other, bias, noise, weight;   // for TryKernel: fresh memory for every kernel is slow
 };
@@ -63,15 +64,20 @@ PixelPlane CutPlane(const NoisyPicture& picture, const std::vector<float>& from,
 	for(int y = 0; y < p.height; y++)
 	{
 		const size_t row = size_t(Reflected(top - Margin + y, picture.height)) * picture.width;
-		for(int x = 0; x < p.width; x++)
-			p.At(x, y) = from[row + Reflected(x - Margin, picture.width)];
+		std::copy_n(&from[row], picture.width, &p.At(Margin, y));
+		for(int x = 1; x <= Margin; x++)
+		{
+			p.At(Margin - x, y) = from[row + Reflected(-x, picture.width)];
+			p.At(p.width - 1 - Margin + x, y) = from[row + Reflected(picture.width - 1 + x, picture.width)];
+		}
 	}
 	return p;
 }
 
 void CutBand(const NoisyPicture& picture, int top, int bottom, Band& band)
 {
-	const PixelPlane share = CutPlane(picture, picture.share, top, bottom);
+	band.share = CutPlane(picture, picture.share, top, bottom);
+	const PixelPlane& share = band.share;
 	for(int c = 0; c < PictureChannels; c++)
 		band.mean[c] = CutPlane(picture, picture.mean[c], top, bottom);
 	PixelPlane variance(share.width, share.height), linear(share.width, share.height);
@@ -79,14 +85,17 @@ void CutBand(const NoisyPicture& picture, int top, int bottom, Band& band)
 	{
 		band.first[c] = CutPlane(picture, picture.first[c], top, bottom);
 		band.later[c] = band.mean[c];
+		band.seen_first[c] = band.seen_later[c] = PixelPlane(share.width, share.height);
 		for(size_t i = 0; i < share.v.size(); i++)
 		{
 			const float s = share.v[i];
+			band.seen_first[c].v[i] = band.seen_later[c].v[i] = UpTo(ChoiceRange, band.first[c].v[i]);
 			if(!(s < 1.0f))
 				continue;
 			band.later[c].v[i] = (band.mean[c].v[i] - s * band.first[c].v[i]) / (1.0f - s);
+			band.seen_later[c].v[i] = UpTo(ChoiceRange, band.later[c].v[i]);
 			const float whole = band.first[c].v[i] - band.later[c].v[i];
-			const float difference = UpTo(ChoiceRange, band.first[c].v[i]) - UpTo(ChoiceRange, band.later[c].v[i]);
+			const float difference = band.seen_first[c].v[i] - band.seen_later[c].v[i];
 			const float part = s * (1.0f - s) * (NetGain / 3.0f);
 			linear.v[i] += whole * whole * part;
 			variance.v[i] += difference * difference * part;
@@ -115,13 +124,26 @@ void CutBand(const NoisyPicture& picture, int top, int bottom, Band& band)
 	}
 }
 
-/// Where a kernel has weight, its smoothed plane takes that much of the plane's place in `best`.
-void Blend(const PixelPlane& plane, const PixelPlane& smooth, const PixelPlane& weight, PixelPlane& best)
+/// Adds to `sum` a third of (smoothed first - later) (smoothed later - first).
+TILT_LENS_VECTORS
+void AddProducts(const float *__restrict smooth_first, const float *__restrict smooth_later, const float *__restrict seen_first,
+                 const float *__restrict seen_later, float *__restrict sum, size_t count)
 {
-	for(size_t i = 0; i < plane.v.size(); i++)
+	for(size_t i = 0; i < count; i++)
+		sum[i] += (UpTo(ChoiceRange, smooth_first[i]) - seen_later[i]) * (UpTo(ChoiceRange, smooth_later[i]) - seen_first[i]) * (1.0f / 3.0f);
+}
+
+/// The weight of a kernel where it costs less than what is best so far, else 0; and the least cost.
+TILT_LENS_VECTORS
+void Weigh(const float *__restrict variance, const float *__restrict bias, const float *__restrict noise, float *__restrict weight,
+           float *__restrict least, size_t count)
+{
+	for(size_t i = 0; i < count; i++)
 	{
-		const float changed = plane.v[i] + weight.v[i] * (smooth.v[i] - plane.v[i]);
-		best.v[i] = weight.v[i] > 0.0f ? changed : best.v[i];
+		const float own = variance[i], neighbours = std::max(bias[i], 0.0f) + noise[i];
+		const float part = own / (own + neighbours), cost = part * neighbours;
+		weight[i] = cost < least[i] ? part : 0.0f;
+		least[i] = std::min(cost, least[i]);
 	}
 }
 
@@ -133,37 +155,36 @@ void TryKernel(const Kernel& kernel, Band& band)
 		band.other.v[i] = Opposition * band.variance.v[i];
 	for(int c = 0; c < 3; c++)
 	{
-		const PixelPlane& first = band.first[c], & later = band.later[c];
-		PixelPlane& smooth_first = band.smooth_first[c], & smooth_later = band.smooth_later[c];
-		kernel.Apply(first, band.rows, smooth_first);
-		kernel.Apply(later, band.rows, smooth_later);
-		for(size_t i = 0; i < pixels; i++)
-			band.other.v[i] += (UpTo(ChoiceRange, smooth_first.v[i]) - UpTo(ChoiceRange, later.v[i])) *
-			                   (UpTo(ChoiceRange, smooth_later.v[i]) - UpTo(ChoiceRange, first.v[i])) * (1.0f / 3.0f);
+		kernel.Apply(band.first[c], band.rows, band.smooth_first[c]);
+		kernel.Apply(band.later[c], band.rows, band.smooth_later[c]);
+		AddProducts(band.smooth_first[c].v.data(), band.smooth_later[c].v.data(), band.seen_first[c].v.data(), band.seen_later[c].v.data(), band.other.v.data(), pixels);
 	}
 	Smooth(band.other, band.rows, band.bias);
 	kernel.ApplySquared(band.linear, band.rows, band.noise);
+	Weigh(band.variance.v.data(), band.bias.v.data(), band.noise.v.data(), band.weight.v.data(), band.cost.v.data(), pixels);
 
-	bool any = false;
-	for(size_t i = 0; i < pixels; i++)
+	if(std::none_of(band.weight.v.begin(), band.weight.v.end(), [](float w) { return w > 0.0f; }))
+		return;
+	for(int c = 0; c < 3; c++)
 	{
-		const float own = band.variance.v[i], neighbours = std::max(band.bias.v[i], 0.0f) + band.noise.v[i];
-		const float cost = own * neighbours / (own + neighbours);
-		band.weight.v[i] = cost < band.cost.v[i] ? own / (own + neighbours) : 0.0f;
-		band.cost.v[i] = std::min(cost, band.cost.v[i]);
-		any |= band.weight.v[i] > 0.0f;
-	}
-	for(int c = 0; any && (c < PictureChannels); c++)
-	{
-		if(!band.used[c])
-			continue;
-		kernel.Apply(band.mean[c], band.rows, band.smooth);
-		Blend(band.mean[c], band.smooth, band.weight, band.best[c]);
-		if(c >= 3)
-			continue;
 		Blend(band.first[c], band.smooth_first[c], band.weight, band.best_first[c]);
 		Blend(band.later[c], band.smooth_later[c], band.weight, band.best_later[c]);
 	}
+	for(int c = 3; c < PictureChannels; c++)
+		if(band.used[c])
+		{
+			kernel.Apply(band.mean[c], band.rows, band.smooth);
+			Blend(band.mean[c], band.smooth, band.weight, band.best[c]);
+		}
+}
+
+/// What was made of the two parts is added up like the parts themselves.
+void Unite(Band& band)
+{
+	for(int c = 0; c < 3; c++)
+		for(size_t i = 0; i < band.share.v.size(); i++)
+			if(band.cost.v[i] < band.variance.v[i])
+				band.best[c].v[i] = band.share.v[i] * band.best_first[c].v[i] + (1.0f - band.share.v[i]) * band.best_later[c].v[i];
 }
 
 /// Whether what was made of either half predicts the other, over a rectangle of the band (right, bottom exclusive), about as
@@ -222,6 +243,7 @@ double DenoiseRows(const NoisyPicture& picture, int top, int bottom, std::vector
 	CutBand(picture, first, last, band);
 	for(const Kernel& kernel : kernels)
 		TryKernel(kernel, band);
+	Unite(band);
 	JudgeBlocks(picture, first, last, band);
 
 	for(int y = top; y <= bottom; y++)

@@ -8,6 +8,13 @@
 #include <cstddef>
 #include <vector>
 
+// Elementwise arithmetic in a fixed order: any width of vectors gives the same bits.
+#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__SANITIZE_ADDRESS__)
+	#define TILT_LENS_VECTORS __attribute__((target_clones("avx2", "default")))
+#else
+	#define TILT_LENS_VECTORS
+#endif
+
 namespace tilt_lens
 {
 
@@ -62,6 +69,9 @@ const int SmoothingReach = 6;
 
 /// Gaussian average, sigma 2 pixels. As with kernels, nothing holds so near to the edges.
 void Smooth(const PixelPlane& p, PixelPlane& rows, PixelPlane& result);
+
+/// Where a kernel has weight, its smoothed plane takes that much of the plane's place in `best`.
+void Blend(const PixelPlane& plane, const PixelPlane& smooth, const PixelPlane& weight, PixelPlane& best);
 
 }
 
