@@ -17,7 +17,7 @@ void NoisyPicture::Resize(int w, int h)
 		plane.assign(size_t(w) * h, 0.0f);
 	for(auto& plane : first)
 		plane.assign(size_t(w) * h, 0.0f);
-	share.assign(size_t(w) * h, 1.0f);
+	count.assign(size_t(w) * h, 1.0f);
 }
 
 namespace
@@ -40,6 +40,11 @@ const float JudgedRange = 2.0f;
 // A mean of all samples has 1 / 2^1.3 = 0.41 of a half's variance. What is to replace it must predict the other half as well as
 // a half without noise but that would; a little more, because two predictions are but samples.
 const float AllowedError = 0.5f;
+// Results by fewer samples than this are averaged by the squares of what they promise. On six scenes that takes 8 % off the error at 4 samples and 5 %
+// at 8; from 16 samples on choosing is better. The first power is better still on them, but makes flat parts a fifth worse.
+const float FewSamples = 16.0f;
+// Bounds for sums to stay finite.
+const float MostPromised = 1e6f, MostLight = 1e30f;
 // Kernels reach KernelReach pixels, and what they promise is averaged over a few more.
 const int Margin = KernelReach + SmoothingReach;
 static_assert(Margin + JudgedBlock - 1 <= DenoiseReach, "the header promises how far pixels look");
@@ -53,9 +58,12 @@ struct Band
 	PixelPlane seen_first[3], seen_later[3];    // up to ChoiceRange
 	PixelPlane variance;                // of the mean as chosen by, own estimate, smoothed
 	PixelPlane linear;                  // the same of all its light: what of it neighbours get
-	PixelPlane cost, best[PictureChannels], best_first[3], best_later[3];   // best: of red, green and blue once all kernels are tried
+	PixelPlane cost, least;             // of what is best so far, summed by credit; of the best kernel alone
+	PixelPlane best[PictureChannels], best_first[3], best_later[3];     // the same of results; best of red, green and blue is made of the parts
+	PixelPlane total;                   // credit
+	PixelPlane few;                     // 1 in pixels that average, 0 in those that take the best kernel alone
 	bool used[PictureChannels];         // not 0 everywhere, as transparency mostly is
-	PixelPlane rows, smooth, smooth_first[3], smooth_later[3], other, bias, noise, weight;   // for TryKernel: fresh memory for every kernel is slow
+	PixelPlane rows, smooth, smooth_first[3], smooth_later[3], other, bias, noise, weight, credit, keep;   // for TryKernel: fresh memory for every kernel is slow
 };
 
 PixelPlane CutPlane(const NoisyPicture& picture, const std::vector<float>& from, int top, int bottom)
@@ -74,9 +82,29 @@ PixelPlane CutPlane(const NoisyPicture& picture, const std::vector<float>& from,
 	return p;
 }
 
+/// Of the first part in `count` samples; 1 of a single one.
+float ShareOfFirst(float count)
+{
+	float part = 1.0f;
+	while(2.0f * part < count)
+		part *= 2.0f;
+	return part / count;
+}
+
+/// What follows from the numbers of samples.
+void Count(const PixelPlane& count, Band& band)
+{
+	band.share = band.few = PixelPlane(count.width, count.height);
+	for(size_t i = 0; i < count.v.size(); i++)
+	{
+		band.share.v[i] = ShareOfFirst(count.v[i]);
+		band.few.v[i] = count.v[i] < FewSamples ? 1.0f : 0.0f;
+	}
+}
+
 void CutBand(const NoisyPicture& picture, int top, int bottom, Band& band)
 {
-	band.share = CutPlane(picture, picture.share, top, bottom);
+	Count(CutPlane(picture, picture.count, top, bottom), band);
 	const PixelPlane& share = band.share;
 	for(int c = 0; c < PictureChannels; c++)
 		band.mean[c] = CutPlane(picture, picture.mean[c], top, bottom);
@@ -101,7 +129,7 @@ void CutBand(const NoisyPicture& picture, int top, int bottom, Band& band)
 			variance.v[i] += difference * difference * part;
 		}
 	}
-	for(PixelPlane *p : { &band.rows, &band.smooth, &band.other, &band.bias, &band.noise, &band.weight, &band.variance, &band.linear })
+	for(PixelPlane *p : { &band.rows, &band.smooth, &band.other, &band.bias, &band.noise, &band.weight, &band.credit, &band.keep, &band.variance, &band.linear })
 		*p = PixelPlane(share.width, share.height);
 	for(int c = 0; c < 3; c++)
 		band.smooth_first[c] = band.smooth_later[c] = band.smooth;
@@ -111,7 +139,9 @@ void CutBand(const NoisyPicture& picture, int top, int bottom, Band& band)
 		v += 1e-14f;                    // flat parts divide by it
 	for(float& v : band.linear.v)
 		v += 1e-14f;
-	band.cost = band.variance;
+	band.cost = band.least = band.variance;
+	band.total = PixelPlane(share.width, share.height);
+	std::fill(band.total.v.begin(), band.total.v.end(), 1.0f);      // of the pixels as they are
 	for(int c = 0; c < PictureChannels; c++)
 	{
 		band.best[c] = band.mean[c];
@@ -133,17 +163,31 @@ void AddProducts(const float *__restrict smooth_first, const float *__restrict s
 		sum[i] += (UpTo(ChoiceRange, smooth_first[i]) - seen_later[i]) * (UpTo(ChoiceRange, smooth_later[i]) - seen_first[i]) * (1.0f / 3.0f);
 }
 
-/// The weight of a kernel where it costs less than what is best so far, else 0; and the least cost.
-TILT_LENS_VECTORS
-void Weigh(const float *__restrict variance, const float *__restrict bias, const float *__restrict noise, float *__restrict weight,
-           float *__restrict least, size_t count)
+/// What a kernel's result counts, and how much of what was best before is kept.
+struct Credit
 {
+	const float *variance, *bias, *noise, *few;
+	float *weight, *credit, *keep, *least, *total, *cost;
+};
+
+TILT_LENS_VECTORS
+void GiveCredit(const Credit& of, size_t count)
+{
+	const float *__restrict variance = of.variance, *__restrict bias = of.bias, *__restrict noise = of.noise;
+	const float *__restrict few = of.few;
+	float *__restrict weight = of.weight, *__restrict credit = of.credit, *__restrict keep = of.keep;
+	float *__restrict least = of.least, *__restrict total = of.total, *__restrict sum = of.cost;
 	for(size_t i = 0; i < count; i++)
 	{
 		const float own = variance[i], neighbours = std::max(bias[i], 0.0f) + noise[i];
 		const float part = own / (own + neighbours), cost = part * neighbours;
-		weight[i] = cost < least[i] ? part : 0.0f;
+		const float promise = std::min(own / cost, MostPromised), better = cost < least[i] ? 1.0f - few[i] : 0.0f;
+		weight[i] = part;
+		credit[i] = better + few[i] * promise * promise;
+		keep[i] = 1.0f - better;
 		least[i] = std::min(cost, least[i]);
+		total[i] = keep[i] * total[i] + credit[i];
+		sum[i] = keep[i] * sum[i] + credit[i] * cost;
 	}
 }
 
@@ -161,30 +205,49 @@ void TryKernel(const Kernel& kernel, Band& band)
 	}
 	Smooth(band.other, band.rows, band.bias);
 	kernel.ApplySquared(band.linear, band.rows, band.noise);
-	Weigh(band.variance.v.data(), band.bias.v.data(), band.noise.v.data(), band.weight.v.data(), band.cost.v.data(), pixels);
+	GiveCredit({ band.variance.v.data(), band.bias.v.data(), band.noise.v.data(), band.few.v.data(),
+	             band.weight.v.data(), band.credit.v.data(), band.keep.v.data(), band.least.v.data(), band.total.v.data(), band.cost.v.data() }, pixels);
 
-	if(std::none_of(band.weight.v.begin(), band.weight.v.end(), [](float w) { return w > 0.0f; }))
+	if(std::none_of(band.credit.v.begin(), band.credit.v.end(), [](float credit) { return credit > 0.0f; }))
 		return;
 	for(int c = 0; c < 3; c++)
 	{
-		Blend(band.first[c], band.smooth_first[c], band.weight, band.best_first[c]);
-		Blend(band.later[c], band.smooth_later[c], band.weight, band.best_later[c]);
+		Blend(band.first[c], band.smooth_first[c], band.weight, band.credit, band.keep, band.best_first[c]);
+		Blend(band.later[c], band.smooth_later[c], band.weight, band.credit, band.keep, band.best_later[c]);
 	}
 	for(int c = 3; c < PictureChannels; c++)
 		if(band.used[c])
 		{
 			kernel.Apply(band.mean[c], band.rows, band.smooth);
-			Blend(band.mean[c], band.smooth, band.weight, band.best[c]);
+			Blend(band.mean[c], band.smooth, band.weight, band.credit, band.keep, band.best[c]);
 		}
 }
 
-/// What was made of the two parts is added up like the parts themselves.
+/// `sum` becomes the mean; where a light without bounds spoilt it, the pixel's own.
+void Divide(PixelPlane& sum, const PixelPlane& total, const PixelPlane& own)
+{
+	for(size_t i = 0; i < sum.v.size(); i++)
+	{
+		const float mean = sum.v[i] / total.v[i];
+		sum.v[i] = std::fabs(mean) < MostLight ? mean : own.v[i];
+	}
+}
+
+/// Sums become means, and what was made of the two parts is added up like the parts themselves.
 void Unite(Band& band)
 {
 	for(int c = 0; c < 3; c++)
+	{
+		Divide(band.best_first[c], band.total, band.first[c]);
+		Divide(band.best_later[c], band.total, band.later[c]);
 		for(size_t i = 0; i < band.share.v.size(); i++)
-			if(band.cost.v[i] < band.variance.v[i])
+			if(band.least.v[i] < band.variance.v[i])
 				band.best[c].v[i] = band.share.v[i] * band.best_first[c].v[i] + (1.0f - band.share.v[i]) * band.best_later[c].v[i];
+	}
+	for(int c = 3; c < PictureChannels; c++)
+		if(band.used[c])
+			Divide(band.best[c], band.total, band.mean[c]);
+	Divide(band.cost, band.total, band.variance);
 }
 
 /// Whether what was made of either half predicts the other, over a rectangle of the band (right, bottom exclusive), about as

@@ -74,19 +74,20 @@ void TakeOutCentre(const float *__restrict plane, float out, float scale, float 
 
 // In vectors too: a loop that might not need what it computes is left as it is by GCC.
 TILT_LENS_VECTORS
-void BlendRow(const float *plane, const float *smooth, const float *weight, float *best, size_t count)
+void BlendRow(const float *plane, const float *smooth, const float *weight, const float *credit, const float *keep, float *sum, size_t count)
 {
 	size_t i = 0;
 	for(; i + LaneCount <= count; i += LaneCount)
 	{
 		const Lanes p = *reinterpret_cast<const Lanes *>(plane + i), s = *reinterpret_cast<const Lanes *>(smooth + i);
-		const Lanes w = *reinterpret_cast<const Lanes *>(weight + i);
-		Lanes& b = *reinterpret_cast<Lanes *>(best + i);
-		b = w > 0.0f ? p + w * (s - p) : b;
+		const Lanes w = *reinterpret_cast<const Lanes *>(weight + i), c = *reinterpret_cast<const Lanes *>(credit + i);
+		const Lanes k = *reinterpret_cast<const Lanes *>(keep + i);
+		Lanes& to = *reinterpret_cast<Lanes *>(sum + i);
+		to = c > 0.0f ? k * to + c * (p + w * (s - p)) : to;
 	}
 	for(; i < count; i++)
-		if(weight[i] > 0.0f)
-			best[i] = plane[i] + weight[i] * (smooth[i] - plane[i]);
+		if(credit[i] > 0.0f)
+			sum[i] = keep[i] * sum[i] + credit[i] * (plane[i] + weight[i] * (smooth[i] - plane[i]));
 }
 
 /// The sum of taps at every pixel, except so many columns and rows along the edges.
@@ -200,9 +201,9 @@ void Smooth(const PixelPlane& p, PixelPlane& rows, PixelPlane& result)
 	Separable(p, half, SmoothingReach, rows, result);
 }
 
-void Blend(const PixelPlane& plane, const PixelPlane& smooth, const PixelPlane& weight, PixelPlane& best)
+void Blend(const PixelPlane& plane, const PixelPlane& smooth, const PixelPlane& weight, const PixelPlane& credit, const PixelPlane& keep, PixelPlane& sum)
 {
-	BlendRow(plane.v.data(), smooth.v.data(), weight.v.data(), best.v.data(), plane.v.size());
+	BlendRow(plane.v.data(), smooth.v.data(), weight.v.data(), credit.v.data(), keep.v.data(), sum.v.data(), plane.v.size());
 }
 
 }

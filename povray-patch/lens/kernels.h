@@ -70,8 +70,9 @@ const int SmoothingReach = 6;
 /// Gaussian average, sigma 2 pixels. As with kernels, nothing holds so near to the edges.
 void Smooth(const PixelPlane& p, PixelPlane& rows, PixelPlane& result);
 
-/// Where a kernel has weight, its smoothed plane takes that much of the plane's place in `best`.
-void Blend(const PixelPlane& plane, const PixelPlane& smooth, const PixelPlane& weight, PixelPlane& best);
+/// Keeps `keep` of `sum` and adds `credit` of the plane, in which the smoothed one takes `weight` of the place. Where credit is 0
+/// nothing changes.
+void Blend(const PixelPlane& plane, const PixelPlane& smooth, const PixelPlane& weight, const PixelPlane& credit, const PixelPlane& keep, PixelPlane& sum);
 
 }
 
