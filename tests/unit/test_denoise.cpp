@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -191,6 +192,20 @@ TEST(Denoise, SmallAndSingleSamplePicturesAreLeftInOrder)
 	p.count.assign(p.count.size(), 1.0f);               // one sample: nothing is known of its noise
 	const Result r = Denoise(p, Wave);
 	EXPECT_NEAR(r.after, r.before, 1e-6);
+}
+
+TEST(Denoise, AnInfiniteLightSpoilsNothingElse)
+{
+	for(const float count : { 4.0f, 16.0f })
+	{
+		NoisyPicture p = Noisy(60, 60, 0.05, Wave, count);
+		const size_t sun = 30 * 60 + 30;
+		p.mean[0][sun] = p.first[0][sun] = std::numeric_limits<float>::infinity();
+		const Result r = Denoise(p, Wave);
+		for(int c = 0; c < 3; c++)
+			for(size_t i = 0; i < r.channels[c].size(); i++)
+				ASSERT_TRUE((c == 0 && i == sun) || (r.channels[c][i] > -1.0f && r.channels[c][i] < 2.0f)) << count << ": " << c << ", " << i;
+	}
 }
 
 namespace
