@@ -17,7 +17,7 @@ void NoisyPicture::Resize(int w, int h)
 		plane.assign(size_t(w) * h, 0.0f);
 	for(auto& plane : first)
 		plane.assign(size_t(w) * h, 0.0f);
-	share.assign(size_t(w) * h, 1.0f);
+	count.assign(size_t(w) * h, 1.0f);
 }
 
 namespace
@@ -40,6 +40,11 @@ const float JudgedRange = 2.0f;
 // A mean of all samples has 1 / 2^1.3 = 0.41 of a half's variance. What is to replace it must predict the other half as well as
 // a half without noise but that would; a little more, because two predictions are but samples.
 const float AllowedError = 0.5f;
+// Results by fewer samples than this are averaged by the squares of what they promise. On six scenes that takes 8 % off the error at 4 samples and 5 %
+// at 8; from 16 samples on choosing is better. The first power is better still on them, but makes flat parts a fifth worse.
+const float FewSamples = 16.0f;
+// Bounds for sums to stay finite.
+const float MostPromised = 1e6f, MostLight = 1e30f;
 // Kernels reach KernelReach pixels, and what they promise is averaged over a few more.
 const int Margin = KernelReach + SmoothingReach;
 static_assert(Margin + JudgedBlock - 1 <= DenoiseReach, "the header promises how far pixels look");
@@ -49,12 +54,16 @@ inline float UpTo(float range, float x) { return std::min(range, std::max(0.0f, 
 /// Two parts of a band of the picture, with margins, and what is best so far.
 struct Band
 {
-	PixelPlane first[3], later[3], mean[PictureChannels];
+	PixelPlane first[3], later[3], mean[PictureChannels], share;
+	PixelPlane seen_first[3], seen_later[3];    // up to ChoiceRange
 	PixelPlane variance;                // of the mean as chosen by, own estimate, smoothed
 	PixelPlane linear;                  // the same of all its light: what of it neighbours get
-	PixelPlane cost, best[PictureChannels], best_first[3], best_later[3];
+	PixelPlane cost, least;             // of what is best so far, summed by credit; of the best kernel alone
+	PixelPlane best[PictureChannels], best_first[3], best_later[3];     // the same of results; best of red, green and blue is made of the parts
+	PixelPlane total;                   // credit
+	PixelPlane few;                     // 1 in pixels that average, 0 in those that take the best kernel alone
 	bool used[PictureChannels];         // not 0 everywhere, as transparency mostly is
-	PixelPlane rows, smooth, smooth_first[3], smooth_later[3], other, bias, noise, weight;   // for TryKernel: fresh memory for every kernel is slow
+	PixelPlane rows, smooth, smooth_first[3], smooth_later[3], other, bias, noise, weight, credit, keep;   // for TryKernel: fresh memory for every kernel is slow
 };
 
 PixelPlane CutPlane(const NoisyPicture& picture, const std::vector<float>& from, int top, int bottom)
@@ -63,15 +72,40 @@ PixelPlane CutPlane(const NoisyPicture& picture, const std::vector<float>& from,
 	for(int y = 0; y < p.height; y++)
 	{
 		const size_t row = size_t(Reflected(top - Margin + y, picture.height)) * picture.width;
-		for(int x = 0; x < p.width; x++)
-			p.At(x, y) = from[row + Reflected(x - Margin, picture.width)];
+		std::copy_n(&from[row], picture.width, &p.At(Margin, y));
+		for(int x = 1; x <= Margin; x++)
+		{
+			p.At(Margin - x, y) = from[row + Reflected(-x, picture.width)];
+			p.At(p.width - 1 - Margin + x, y) = from[row + Reflected(picture.width - 1 + x, picture.width)];
+		}
 	}
 	return p;
 }
 
+/// Of the first part in `count` samples; 1 of a single one.
+float ShareOfFirst(float count)
+{
+	float part = 1.0f;
+	while(2.0f * part < count)
+		part *= 2.0f;
+	return part / count;
+}
+
+/// What follows from the numbers of samples.
+void Count(const PixelPlane& count, Band& band)
+{
+	band.share = band.few = PixelPlane(count.width, count.height);
+	for(size_t i = 0; i < count.v.size(); i++)
+	{
+		band.share.v[i] = ShareOfFirst(count.v[i]);
+		band.few.v[i] = count.v[i] < FewSamples ? 1.0f : 0.0f;
+	}
+}
+
 void CutBand(const NoisyPicture& picture, int top, int bottom, Band& band)
 {
-	const PixelPlane share = CutPlane(picture, picture.share, top, bottom);
+	Count(CutPlane(picture, picture.count, top, bottom), band);
+	const PixelPlane& share = band.share;
 	for(int c = 0; c < PictureChannels; c++)
 		band.mean[c] = CutPlane(picture, picture.mean[c], top, bottom);
 	PixelPlane variance(share.width, share.height), linear(share.width, share.height);
@@ -79,20 +113,23 @@ void CutBand(const NoisyPicture& picture, int top, int bottom, Band& band)
 	{
 		band.first[c] = CutPlane(picture, picture.first[c], top, bottom);
 		band.later[c] = band.mean[c];
+		band.seen_first[c] = band.seen_later[c] = PixelPlane(share.width, share.height);
 		for(size_t i = 0; i < share.v.size(); i++)
 		{
 			const float s = share.v[i];
+			band.seen_first[c].v[i] = band.seen_later[c].v[i] = UpTo(ChoiceRange, band.first[c].v[i]);
 			if(!(s < 1.0f))
 				continue;
 			band.later[c].v[i] = (band.mean[c].v[i] - s * band.first[c].v[i]) / (1.0f - s);
+			band.seen_later[c].v[i] = UpTo(ChoiceRange, band.later[c].v[i]);
 			const float whole = band.first[c].v[i] - band.later[c].v[i];
-			const float difference = UpTo(ChoiceRange, band.first[c].v[i]) - UpTo(ChoiceRange, band.later[c].v[i]);
+			const float difference = band.seen_first[c].v[i] - band.seen_later[c].v[i];
 			const float part = s * (1.0f - s) * (NetGain / 3.0f);
 			linear.v[i] += whole * whole * part;
 			variance.v[i] += difference * difference * part;
 		}
 	}
-	for(PixelPlane *p : { &band.rows, &band.smooth, &band.other, &band.bias, &band.noise, &band.weight, &band.variance, &band.linear })
+	for(PixelPlane *p : { &band.rows, &band.smooth, &band.other, &band.bias, &band.noise, &band.weight, &band.credit, &band.keep, &band.variance, &band.linear })
 		*p = PixelPlane(share.width, share.height);
 	for(int c = 0; c < 3; c++)
 		band.smooth_first[c] = band.smooth_later[c] = band.smooth;
@@ -102,7 +139,9 @@ void CutBand(const NoisyPicture& picture, int top, int bottom, Band& band)
 		v += 1e-14f;                    // flat parts divide by it
 	for(float& v : band.linear.v)
 		v += 1e-14f;
-	band.cost = band.variance;
+	band.cost = band.least = band.variance;
+	band.total = PixelPlane(share.width, share.height);
+	std::fill(band.total.v.begin(), band.total.v.end(), 1.0f);      // of the pixels as they are
 	for(int c = 0; c < PictureChannels; c++)
 	{
 		band.best[c] = band.mean[c];
@@ -115,13 +154,40 @@ void CutBand(const NoisyPicture& picture, int top, int bottom, Band& band)
 	}
 }
 
-/// Where a kernel has weight, its smoothed plane takes that much of the plane's place in `best`.
-void Blend(const PixelPlane& plane, const PixelPlane& smooth, const PixelPlane& weight, PixelPlane& best)
+/// Adds to `sum` a third of (smoothed first - later) (smoothed later - first).
+TILT_LENS_VECTORS
+void AddProducts(const float *__restrict smooth_first, const float *__restrict smooth_later, const float *__restrict seen_first,
+                 const float *__restrict seen_later, float *__restrict sum, size_t count)
 {
-	for(size_t i = 0; i < plane.v.size(); i++)
+	for(size_t i = 0; i < count; i++)
+		sum[i] += (UpTo(ChoiceRange, smooth_first[i]) - seen_later[i]) * (UpTo(ChoiceRange, smooth_later[i]) - seen_first[i]) * (1.0f / 3.0f);
+}
+
+/// What a kernel's result counts, and how much of what was best before is kept.
+struct Credit
+{
+	const float *variance, *bias, *noise, *few;
+	float *weight, *credit, *keep, *least, *total, *cost;
+};
+
+TILT_LENS_VECTORS
+void GiveCredit(const Credit& of, size_t count)
+{
+	const float *__restrict variance = of.variance, *__restrict bias = of.bias, *__restrict noise = of.noise;
+	const float *__restrict few = of.few;
+	float *__restrict weight = of.weight, *__restrict credit = of.credit, *__restrict keep = of.keep;
+	float *__restrict least = of.least, *__restrict total = of.total, *__restrict sum = of.cost;
+	for(size_t i = 0; i < count; i++)
 	{
-		const float changed = plane.v[i] + weight.v[i] * (smooth.v[i] - plane.v[i]);
-		best.v[i] = weight.v[i] > 0.0f ? changed : best.v[i];
+		const float own = variance[i], neighbours = std::max(bias[i], 0.0f) + noise[i];
+		const float part = own / (own + neighbours), cost = part * neighbours;
+		const float promise = std::min(own / cost, MostPromised), better = cost < least[i] ? 1.0f - few[i] : 0.0f;
+		weight[i] = part;
+		credit[i] = better + few[i] * promise * promise;
+		keep[i] = 1.0f - better;
+		least[i] = std::min(cost, least[i]);
+		total[i] = keep[i] * total[i] + credit[i];
+		sum[i] = keep[i] * sum[i] + credit[i] * cost;
 	}
 }
 
@@ -133,37 +199,55 @@ void TryKernel(const Kernel& kernel, Band& band)
 		band.other.v[i] = Opposition * band.variance.v[i];
 	for(int c = 0; c < 3; c++)
 	{
-		const PixelPlane& first = band.first[c], & later = band.later[c];
-		PixelPlane& smooth_first = band.smooth_first[c], & smooth_later = band.smooth_later[c];
-		kernel.Apply(first, band.rows, smooth_first);
-		kernel.Apply(later, band.rows, smooth_later);
-		for(size_t i = 0; i < pixels; i++)
-			band.other.v[i] += (UpTo(ChoiceRange, smooth_first.v[i]) - UpTo(ChoiceRange, later.v[i])) *
-			                   (UpTo(ChoiceRange, smooth_later.v[i]) - UpTo(ChoiceRange, first.v[i])) * (1.0f / 3.0f);
+		kernel.Apply(band.first[c], band.rows, band.smooth_first[c]);
+		kernel.Apply(band.later[c], band.rows, band.smooth_later[c]);
+		AddProducts(band.smooth_first[c].v.data(), band.smooth_later[c].v.data(), band.seen_first[c].v.data(), band.seen_later[c].v.data(), band.other.v.data(), pixels);
 	}
 	Smooth(band.other, band.rows, band.bias);
 	kernel.ApplySquared(band.linear, band.rows, band.noise);
+	GiveCredit({ band.variance.v.data(), band.bias.v.data(), band.noise.v.data(), band.few.v.data(),
+	             band.weight.v.data(), band.credit.v.data(), band.keep.v.data(), band.least.v.data(), band.total.v.data(), band.cost.v.data() }, pixels);
 
-	bool any = false;
-	for(size_t i = 0; i < pixels; i++)
+	if(std::none_of(band.credit.v.begin(), band.credit.v.end(), [](float credit) { return credit > 0.0f; }))
+		return;
+	for(int c = 0; c < 3; c++)
 	{
-		const float own = band.variance.v[i], neighbours = std::max(band.bias.v[i], 0.0f) + band.noise.v[i];
-		const float cost = own * neighbours / (own + neighbours);
-		band.weight.v[i] = cost < band.cost.v[i] ? own / (own + neighbours) : 0.0f;
-		band.cost.v[i] = std::min(cost, band.cost.v[i]);
-		any |= band.weight.v[i] > 0.0f;
+		Blend(band.first[c], band.smooth_first[c], band.weight, band.credit, band.keep, band.best_first[c]);
+		Blend(band.later[c], band.smooth_later[c], band.weight, band.credit, band.keep, band.best_later[c]);
 	}
-	for(int c = 0; any && (c < PictureChannels); c++)
+	for(int c = 3; c < PictureChannels; c++)
+		if(band.used[c])
+		{
+			kernel.Apply(band.mean[c], band.rows, band.smooth);
+			Blend(band.mean[c], band.smooth, band.weight, band.credit, band.keep, band.best[c]);
+		}
+}
+
+/// `sum` becomes the mean; where a light without bounds spoilt it, the pixel's own.
+void Divide(PixelPlane& sum, const PixelPlane& total, const PixelPlane& own)
+{
+	for(size_t i = 0; i < sum.v.size(); i++)
 	{
-		if(!band.used[c])
-			continue;
-		kernel.Apply(band.mean[c], band.rows, band.smooth);
-		Blend(band.mean[c], band.smooth, band.weight, band.best[c]);
-		if(c >= 3)
-			continue;
-		Blend(band.first[c], band.smooth_first[c], band.weight, band.best_first[c]);
-		Blend(band.later[c], band.smooth_later[c], band.weight, band.best_later[c]);
+		const float mean = sum.v[i] / total.v[i];
+		sum.v[i] = std::fabs(mean) < MostLight ? mean : own.v[i];
 	}
+}
+
+/// Sums become means, and what was made of the two parts is added up like the parts themselves.
+void Unite(Band& band)
+{
+	for(int c = 0; c < 3; c++)
+	{
+		Divide(band.best_first[c], band.total, band.first[c]);
+		Divide(band.best_later[c], band.total, band.later[c]);
+		for(size_t i = 0; i < band.share.v.size(); i++)
+			if(band.least.v[i] < band.variance.v[i])
+				band.best[c].v[i] = band.share.v[i] * band.best_first[c].v[i] + (1.0f - band.share.v[i]) * band.best_later[c].v[i];
+	}
+	for(int c = 3; c < PictureChannels; c++)
+		if(band.used[c])
+			Divide(band.best[c], band.total, band.mean[c]);
+	Divide(band.cost, band.total, band.variance);
 }
 
 /// Whether what was made of either half predicts the other, over a rectangle of the band (right, bottom exclusive), about as
@@ -222,6 +306,7 @@ double DenoiseRows(const NoisyPicture& picture, int top, int bottom, std::vector
 	CutBand(picture, first, last, band);
 	for(const Kernel& kernel : kernels)
 		TryKernel(kernel, band);
+	Unite(band);
 	JudgeBlocks(picture, first, last, band);
 
 	for(int y = top; y <= bottom; y++)

@@ -10,7 +10,9 @@
 // not common. With the pixel's own variance that gives the weight at which own mean
 // and smoothed neighbours together have the least squared error, and that error. Of
 // eighteen kernels, round ones and strokes in four directions, each pixel takes the
-// one that promises most; where none promises anything it stays as it was. In the end
+// one that promises most; where none promises anything it stays as it was. With fewer than
+// sixteen samples the promises themselves are so noisy that the best of them is often but lucky:
+// then all kernels' results are averaged, each the more the less error it promises. In the end
 // blocks of 8 x 8 pixels are judged as they are shown: one in which the two halves,
 // smoothed like the whole, do not predict each other stays as it was.
 //
@@ -43,7 +45,7 @@ struct NoisyPicture
 	int left = 0, top = 0;                      ///< where its corner lies in the whole picture
 	std::vector<float> mean[PictureChannels];   ///< of all samples
 	std::vector<float> first[3];                ///< of the first part of them
-	std::vector<float> share;                   ///< of that part in all samples, 0 < share < 1; 1 where there is but one
+	std::vector<float> count;                   ///< of samples; the first part are as many as the last power of two below
 
 	void Resize(int w, int h);
 };

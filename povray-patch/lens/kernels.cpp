@@ -23,13 +23,6 @@ int Reflected(int i, int n)
 namespace
 {
 
-// Elementwise additions in the order of the taps: any width of vectors gives the same bits.
-#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__SANITIZE_ADDRESS__)
-	#define TILT_LENS_VECTORS __attribute__((target_clones("avx2", "default")))
-#else
-	#define TILT_LENS_VECTORS
-#endif
-
 // GCC's and clang's vectors: plain loops over an array of sums are not kept in registers.
 typedef float Lanes __attribute__((vector_size(32), aligned(4), may_alias));
 const int LaneCount = sizeof(Lanes) / sizeof(float), LanesAtATime = 4 * LaneCount;
@@ -56,6 +49,13 @@ void SumTaps(const float *source, const std::ptrdiff_t *offset, const float *wei
 		to[2] = c;
 		to[3] = d;
 	}
+	for(; x + LaneCount <= count; x += LaneCount)
+	{
+		Lanes a = {};
+		for(size_t t = 0; t < taps; t++)
+			a += weight[t] * *reinterpret_cast<const Lanes *>(source + offset[t] + x);
+		*reinterpret_cast<Lanes *>(target + x) = a;
+	}
 	for(; x < count; x++)
 	{
 		float sum = 0.0f;
@@ -63,6 +63,31 @@ void SumTaps(const float *source, const std::ptrdiff_t *offset, const float *wei
 			sum += weight[t] * source[offset[t] + x];
 		target[x] = sum;
 	}
+}
+
+TILT_LENS_VECTORS
+void TakeOutCentre(const float *__restrict plane, float out, float scale, float *__restrict result, size_t count)
+{
+	for(size_t i = 0; i < count; i++)
+		result[i] = (result[i] - out * plane[i]) * scale;
+}
+
+// In vectors too: a loop that might not need what it computes is left as it is by GCC.
+TILT_LENS_VECTORS
+void BlendRow(const float *plane, const float *smooth, const float *weight, const float *credit, const float *keep, float *sum, size_t count)
+{
+	size_t i = 0;
+	for(; i + LaneCount <= count; i += LaneCount)
+	{
+		const Lanes p = *reinterpret_cast<const Lanes *>(plane + i), s = *reinterpret_cast<const Lanes *>(smooth + i);
+		const Lanes w = *reinterpret_cast<const Lanes *>(weight + i), c = *reinterpret_cast<const Lanes *>(credit + i);
+		const Lanes k = *reinterpret_cast<const Lanes *>(keep + i);
+		Lanes& to = *reinterpret_cast<Lanes *>(sum + i);
+		to = c > 0.0f ? k * to + c * (p + w * (s - p)) : to;
+	}
+	for(; i < count; i++)
+		if(credit[i] > 0.0f)
+			sum[i] = keep[i] * sum[i] + credit[i] * (plane[i] + weight[i] * (smooth[i] - plane[i]));
 }
 
 /// The sum of taps at every pixel, except so many columns and rows along the edges.
@@ -155,8 +180,7 @@ void Kernel::Apply(const PixelPlane& p, bool squared, PixelPlane& rows, PixelPla
 			w *= w;
 	const float out = squared ? centre * centre : centre, scale = squared ? 1.0f / (rest * rest) : 1.0f / rest;
 	Separable(p, weights, KernelReach, rows, result);
-	for(size_t i = 0; i < result.v.size(); i++)
-		result.v[i] = (result.v[i] - out * p.v[i]) * scale;
+	TakeOutCentre(p.v.data(), out, scale, result.v.data(), result.v.size());
 }
 
 std::vector<Kernel> AllKernels()
@@ -175,6 +199,11 @@ void Smooth(const PixelPlane& p, PixelPlane& rows, PixelPlane& result)
 {
 	static const std::vector<float> half = HalfGaussian(2.0, SmoothingReach);
 	Separable(p, half, SmoothingReach, rows, result);
+}
+
+void Blend(const PixelPlane& plane, const PixelPlane& smooth, const PixelPlane& weight, const PixelPlane& credit, const PixelPlane& keep, PixelPlane& sum)
+{
+	BlendRow(plane.v.data(), smooth.v.data(), weight.v.data(), credit.v.data(), keep.v.data(), sum.v.data(), plane.v.size());
 }
 
 }

@@ -8,6 +8,13 @@
 #include <cstddef>
 #include <vector>
 
+// Elementwise arithmetic in a fixed order: any width of vectors gives the same bits.
+#if defined(__x86_64__) && defined(__gnu_linux__) && !defined(__SANITIZE_ADDRESS__)
+	#define TILT_LENS_VECTORS __attribute__((target_clones("avx2", "default")))
+#else
+	#define TILT_LENS_VECTORS
+#endif
+
 namespace tilt_lens
 {
 
@@ -62,6 +69,10 @@ const int SmoothingReach = 6;
 
 /// Gaussian average, sigma 2 pixels. As with kernels, nothing holds so near to the edges.
 void Smooth(const PixelPlane& p, PixelPlane& rows, PixelPlane& result);
+
+/// Keeps `keep` of `sum` and adds `credit` of the plane, in which the smoothed one takes `weight` of the place. Where credit is 0
+/// nothing changes.
+void Blend(const PixelPlane& plane, const PixelPlane& smooth, const PixelPlane& weight, const PixelPlane& credit, const PixelPlane& keep, PixelPlane& sum);
 
 }
 

@@ -59,9 +59,9 @@ void DenoisedPicture::Record(int x, int y, const SampleSums& sums)
 	const Colour mean = sums.Mean();
 	for(int c = 0; c < PictureChannels; c++)
 		noisy.mean[c][i] = mean[c];
-	for(int c = 0; (part > 0) && (c < 3); c++)
-		noisy.first[c][i] = float(sums.FirstMean(c));
-	noisy.share[i] = part > 0 ? float(part) / float(sums.count) : 1.0f;
+	for(int c = 0; c < 3; c++)
+		noisy.first[c][i] = part > 0 ? float(sums.FirstMean(c)) : mean[c];
+	noisy.count[i] = float(sums.count);
 	if(!recorded[i])
 		missing--;
 	recorded[i] = true;

@@ -34,7 +34,7 @@ double Pilot::DenoisedError(const Block& block, const std::vector<size_t>& known
 	for (size_t i = 0; i < block.pixels.size(); ++i)
 	{
 		const auto& levels = block.pixels[i].levels;
-		picture.share[i] = known[i] > 0 ? 0.5f : 1.0f;
+		picture.count[i] = float(std::size_t(1) << known[i]);
 		for (int c = 0; c < 3; ++c)
 		{
 			picture.mean[c][i] = levels[known[i]].mean[c];

@@ -81,10 +81,10 @@ double DenoiseSecondsPerPixel()
 		tilt_lens::NoisyPicture picture;
 		const int size = 160;
 		picture.Resize(size, size);
-		picture.share.assign(picture.share.size(), 0.5f);
+		picture.count.assign(picture.count.size(), 16.0f);
 		std::vector<float> denoised[tilt_lens::PictureChannels];
 		for (auto& plane : denoised)
-			plane.assign(picture.share.size(), 0.0f);
+			plane.assign(picture.count.size(), 0.0f);
 		const std::clock_t start = std::clock();
 		tilt_lens::DenoiseRows(picture, 0, size - 1, denoised);
 		return double(std::clock() - start) / CLOCKS_PER_SEC / (size * size);

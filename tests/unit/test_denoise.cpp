@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -29,9 +30,9 @@ struct Result
 
 /// The truth with normal noise of standard deviation `sigma` in every mean. The parts' noise is as opposed as that of
 /// nets whose variance falls like n^-1.3, which denoise assumes: var(half) = 2^1.3 var(all).
-NoisyPicture Noisy(int width, int height, double sigma, const std::function<double(int, int)>& truth)
+NoisyPicture Noisy(int width, int height, double sigma, const std::function<double(int, int)>& truth, float count = 16, unsigned seed = 7)
 {
-	std::mt19937 random(7);
+	std::mt19937 random(seed);
 	std::normal_distribution<double> normal;
 	NoisyPicture p;
 	p.Resize(width, height);
@@ -40,7 +41,7 @@ NoisyPicture Noisy(int width, int height, double sigma, const std::function<doub
 		for(int x = 0; x < width; x++)
 		{
 			const int i = y * width + x;
-			p.share[i] = 0.5f;
+			p.count[i] = count;
 			for(int c = 0; c < 3; c++)
 			{
 				const double mean = truth(x, y) + common * normal(random);
@@ -103,36 +104,63 @@ TEST(Denoise, EdgesStay)
 	}
 }
 
+// The best of eighteen promises of a few samples is luck. Pictures that differ in nothing but how their kernels are chosen: where several of them
+// are about as good averaging gains (by a tenth here), where the largest is far the best it loses next to nothing. The
+// means' standard errors over 8 seeds are 1 %.
+TEST(Denoise, FewSamplesAverageTheirKernels)
+{
+	for(const auto& truth : { Wave, Edge })
+		for(const float few : { 4.0f, 8.0f })
+		{
+			double averaged = 0.0, chosen = 0.0;
+			for(unsigned seed = 0; seed < 8; seed++)
+			{
+				chosen += Denoise(Noisy(80, 80, 0.1, truth, 16, seed), truth).after;
+				averaged += Denoise(Noisy(80, 80, 0.1, truth, few, seed), truth).after;
+			}
+			EXPECT_LT(averaged, (truth == Wave ? 0.95 : 1.06) * chosen) << few;
+		}
+}
+
 TEST(Denoise, DetailOfOnePixelIsNotSmoothedAway)
 {
-	const Result r = Denoise(Noisy(64, 64, 0.02, Checks), Checks);
-	EXPECT_LT(r.after, 1.02 * r.before);
+	for(const float count : { 4.0f, 8.0f, 16.0f })
+	{
+		const Result r = Denoise(Noisy(64, 64, 0.02, Checks, count), Checks);
+		EXPECT_LT(r.after, 1.02 * r.before) << count;
+	}
 }
 
 TEST(Denoise, WithoutNoiseNothingChanges)
 {
-	const Result r = Denoise(Noisy(64, 64, 0.0, Wave), Wave);
-	EXPECT_LT(r.after, 1e-6);
-	const Result flat = Denoise(Noisy(20, 20, 0.0, [](int, int) { return 0.25; }), [](int, int) { return 0.25; });
-	EXPECT_LT(flat.after, 1e-7);
+	for(const float count : { 4.0f, 8.0f, 16.0f })
+	{
+		const Result r = Denoise(Noisy(64, 64, 0.0, Wave, count), Wave);
+		EXPECT_LT(r.after, 1e-6) << count;
+		const Result flat = Denoise(Noisy(20, 20, 0.0, [](int, int) { return 0.25; }, count), [](int, int) { return 0.25; });
+		EXPECT_LT(flat.after, 1e-7) << count;
+	}
 }
 
 // Strips and tiles must not show: a row's pixels are the same bits whatever rows are asked for with it.
 TEST(Denoise, RowsDoNotDependOnTheBand)
 {
-	const NoisyPicture p = Noisy(50, 77, 0.05, Wave);
-	const Result whole = Denoise(p, Wave), rows = Denoise(p, Wave, 1), bands = Denoise(p, Wave, 30);
-	for(int c = 0; c < PictureChannels; c++)
+	for(const float count : { 4.0f, 8.0f, 16.0f })
 	{
-		EXPECT_EQ(whole.channels[c], rows.channels[c]);
-		EXPECT_EQ(whole.channels[c], bands.channels[c]);
+		const NoisyPicture p = Noisy(50, 77, 0.05, Wave, count);
+		const Result whole = Denoise(p, Wave), rows = Denoise(p, Wave, 1), bands = Denoise(p, Wave, 30);
+		for(int c = 0; c < PictureChannels; c++)
+		{
+			EXPECT_EQ(whole.channels[c], rows.channels[c]) << count;
+			EXPECT_EQ(whole.channels[c], bands.channels[c]) << count;
+		}
 	}
 }
 
 // A strip that knows where it lies, and DenoiseReach beyond what is asked of it, gives the whole picture's bits.
 TEST(Denoise, StripsGiveTheWholePicture)
 {
-	const NoisyPicture p = Noisy(90, 80, 0.05, Edge);
+	const NoisyPicture p = Noisy(90, 80, 0.05, Edge, 8);
 	const Result whole = Denoise(p, Edge);
 	NoisyPicture strip;
 	const int left = 27 - DenoiseReach, top = 29 - DenoiseReach;       // pixels from (27, 29) on are asked for
@@ -143,7 +171,7 @@ TEST(Denoise, StripsGiveTheWholePicture)
 		for(int x = 0; x < strip.width; x++)
 		{
 			const int to = y * strip.width + x, from = (y + top) * p.width + x + left;
-			strip.share[to] = p.share[from];
+			strip.count[to] = p.count[from];
 			for(int c = 0; c < 3; c++)
 			{
 				strip.mean[c][to] = p.mean[c][from];
@@ -161,9 +189,23 @@ TEST(Denoise, SmallAndSingleSamplePicturesAreLeftInOrder)
 	for(int size : { 1, 2, 3 })
 		EXPECT_TRUE(std::isfinite(Denoise(Noisy(size, size, 0.05, Wave), Wave).after)) << size;
 	NoisyPicture p = Noisy(30, 30, 0.05, Wave);
-	p.share.assign(p.share.size(), 1.0f);               // one sample: nothing is known of its noise
+	p.count.assign(p.count.size(), 1.0f);               // one sample: nothing is known of its noise
 	const Result r = Denoise(p, Wave);
 	EXPECT_NEAR(r.after, r.before, 1e-6);
+}
+
+TEST(Denoise, AnInfiniteLightSpoilsNothingElse)
+{
+	for(const float count : { 4.0f, 16.0f })
+	{
+		NoisyPicture p = Noisy(60, 60, 0.05, Wave, count);
+		const size_t sun = 30 * 60 + 30;
+		p.mean[0][sun] = p.first[0][sun] = std::numeric_limits<float>::infinity();
+		const Result r = Denoise(p, Wave);
+		for(int c = 0; c < 3; c++)
+			for(size_t i = 0; i < r.channels[c].size(); i++)
+				ASSERT_TRUE((c == 0 && i == sun) || (r.channels[c][i] > -1.0f && r.channels[c][i] < 2.0f)) << count << ": " << c << ", " << i;
+	}
 }
 
 namespace
@@ -255,7 +297,7 @@ TEST(Denoise, MakesNoBlockWorseAroundHighlights)
 					p.mean[c][i] = float(all);
 					p.first[c][i] = float(half);
 				}
-				p.share[i] = 0.5f;
+				p.count[i] = samples;
 			}
 			const Result r = Denoise(p, Wave);      // its errors mean nothing here
 			for(int b = 0; b < blocks; b++)
@@ -323,7 +365,7 @@ TEST(Denoise, KeepsFourteenFloatsAPixel)
 {
 	NoisyPicture p;
 	p.Resize(10, 7);
-	size_t floats = p.share.size();
+	size_t floats = p.count.size();
 	for(const auto& plane : p.mean)
 		floats += plane.size();
 	for(const auto& plane : p.first)

@@ -2,7 +2,7 @@
 //
 // What accuracy costs: tilt_lens against stock focal blur, averaged pinholes and itself with a fixed N.
 //
-//   race --ours POVRAY --stock POVRAY [--quick] [--scene NAME ...] --out DIR --work DIR
+//   race --ours POVRAY --stock POVRAY [--quick | --bench] [--scene NAME ...] --out DIR --work DIR
 #include "race_report.h"
 
 #include <CLI/CLI.hpp>
@@ -45,6 +45,19 @@ bool KnowsSeed(const fs::path& program, const fs::path& work)
 	}
 }
 
+// A copy of the program, made once.
+fs::path Kept(const fs::path& program, const fs::path& copy)
+{
+	fs::path partial = copy;
+	partial += ".partial";
+	if (!fs::exists(copy))
+	{
+		fs::copy_file(program, partial, fs::copy_options::overwrite_existing);
+		fs::rename(partial, copy);
+	}
+	return copy;
+}
+
 std::string Processor()
 {
 	std::ifstream file("/proc/cpuinfo");
@@ -63,7 +76,7 @@ try
 	fs::path scenes, settings_file, out, work;
 	std::vector<std::string> names;
 	std::string mode = "full";
-	bool quick = false, list = false, reuse_stock = false;
+	bool quick = false, bench = false, list = false, reuse_stock = false;
 	int jobs = 1;
 	CLI::App app{"Error against CPU time: tilt_lens, stock focal blur, averaged pinholes."};
 	app.add_option("--ours", programs.ours, "the patched povray")->required();
@@ -75,7 +88,8 @@ try
 	app.add_option("--out", out, "folder of the report")->required();
 	app.add_option("--work", work, "folder of everything else; keeps references")->required();
 	app.add_option("--jobs", jobs, "scenes at a time")->check(CLI::Range(1, 64));
-	app.add_flag("--quick", quick, "smaller pictures, fewer settings");
+	CLI::Option *quickly = app.add_flag("--quick", quick, "smaller pictures, fewer settings");
+	app.add_flag("--bench", bench, "what a change is worth, in minutes: larger pictures, few settings; stock and the truths, by the first --ours, are made once and kept in --work")->excludes(quickly);
 	app.add_flag("--list", list, "list the contests");
 	app.add_flag("--reuse-stock", reuse_stock, "take stock's pictures and times from an earlier race; for work on tilt_lens");
 	try
@@ -86,17 +100,19 @@ try
 	{
 		return app.exit(error) == 0 ? 0 : 2;
 	}
-	if (quick)
-		mode = "quick";
-	if (programs.reference.empty())
-		programs.reference = programs.ours;
+	if (quick || bench)
+		mode = quick ? "quick" : "bench";
+	reuse_stock |= bench;
+	RaceReport report;
+	report.settings = ReadSettings(settings_file, mode);
+	report.reused_stock = reuse_stock;
 
 	std::vector<Entry> entries;
 	for (const RaceScene& scene : ReadScenes(scenes))
 		for (bool tilted : {false, true})
 		{
 			const Entry entry{scene, tilted};
-			if (tilted > scene.tilted || (!names.empty() && std::find(names.begin(), names.end(), entry.Name()) == names.end()))
+			if (tilted > (scene.tilted && report.settings.pinhole_frames > 0) || (!names.empty() && std::find(names.begin(), names.end(), entry.Name()) == names.end()))
 				continue;
 			entries.push_back(entry);
 			if (list)
@@ -107,12 +123,11 @@ try
 	if (entries.empty())
 		throw std::runtime_error("no such scene; --list names them");
 
-	RaceReport report;
-	report.settings = ReadSettings(settings_file, mode);
-	report.reused_stock = reuse_stock;
 	fs::create_directories(out);
 	work = fs::absolute(work) / mode;
 	fs::create_directories(work);
+	if (programs.reference.empty())
+		programs.reference = bench ? Kept(programs.ours, work / "reference-povray") : programs.ours;
 	for (fs::path* program : {&programs.ours, &programs.stock, &programs.reference})
 		*program = fs::absolute(*program);
 	programs.seed = KnowsSeed(programs.ours, work) && KnowsSeed(programs.reference, work);
@@ -172,6 +187,7 @@ try
 	if (!failures.empty())
 		return 1;
 
+	std::fputs(RatiosInWords(report).c_str(), stdout);
 	for (const Side side : {Side::RAW, Side::BEST})
 		std::printf("time over ours %s at equal RMS error, geometric means: stock %.2f, averaged pinholes %.2f, fixed N %.2f\n%s\n",
 			side == Side::RAW ? "without denoise" : "at its best, denoised where that is quicker", GeometricMean(report, Opponent::STOCK, side),

@@ -210,8 +210,9 @@ std::string Section(const Contest& contest, const RaceReport& report, const fs::
 {
 	std::string text = fmt::format("<div class=\"scene\" id=\"{}\"><div class=\"text\"><h3>{}</h3>\n{}\n<p>{}.</p>\n", contest.Name(),
 		contest.Title(), Thumbnail(contest.truth), contest.scene.shows);
-	text += fmt::format("<p><small>Truth: {} samples, own RMS error {:.5f}{}; {:.5f} from {} averaged pinholes of stock, which should be within {:.5f}.",
-		contest.truth_samples, contest.truth_error, contest.truth_error <= report.settings.reference_error ? "" : " (more than a tenth of the smallest error)",
+	text += fmt::format("<p><small>Truth: {} samples, own RMS error {:.5f}{}",
+		contest.truth_samples, contest.truth_error, contest.truth_error <= report.settings.reference_error ? "" : " (more than was asked for)");
+	text += contest.pinhole_frames == 0 ? "." : fmt::format("; {:.5f} from {} averaged pinholes of stock, which should be within {:.5f}.",
 		contest.pinhole_distance, contest.pinhole_frames, contest.pinhole_error);
 	if (!contest.tilted)
 		text += fmt::format(" Stock's own limit (own error {:.5f}) is {:.5f} from the truth, moved by ({:.3f}, {:.3f}) px.",

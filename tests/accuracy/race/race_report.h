@@ -30,6 +30,9 @@ std::string PlotOf(const Contest& contest, bool rel_mse, const std::filesystem::
 // Geometric mean of ratios against a rival over contests and errors; 0 without any.
 double GeometricMean(const RaceReport& report, Opponent rival, Side side);
 
+// Lines for a terminal: every contest's ratios at every error, without denoise and at the best.
+std::string RatiosInWords(const RaceReport& report);
+
 // Sentences on where ours gains nothing, or least.
 std::string WhereWeLose(const RaceReport& report, Side side);
 

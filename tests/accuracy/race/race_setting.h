@@ -50,11 +50,11 @@ struct RaceSettings
 	int reference_samples = 0, reference_seeds = 0; // samples of one set, sets at most
 	double reference_error = 0; // sets are added until the reference is this good
 	int limit_samples = 0; // of stock's own limit, twice
-	int pinhole_frames = 0, check_frames = 0;
+	int pinhole_frames = 0, check_frames = 0; // 0: no tilted contests, truths are not checked
 	std::vector<double> errors; // at which times are compared
 	std::vector<double> rel_mse;
 	std::vector<Setting> stock, ours, raw, fixed;
 };
 
-// `mode` is "full" or "quick". Throws std::exception that names what is wrong.
+// `mode` is "full", "quick" or "bench". Throws std::exception that names what is wrong.
 RaceSettings ReadSettings(const std::filesystem::path& file, const std::string& mode);

@@ -82,6 +82,28 @@ double GeometricMean(const RaceReport& report, Opponent rival, Side side)
 	return count > 0 ? std::exp(sum / count) : 0;
 }
 
+std::string RatiosInWords(const RaceReport& report)
+{
+	std::string text = fmt::format("{:<22}", "raw / best, at");
+	for (double error : report.settings.errors)
+		text += fmt::format("{:>18g}", error);
+	text += '\n';
+	for (const Contest& contest : report.contests)
+	{
+		text += fmt::format("{:<22}", contest.Name());
+		for (double error : report.settings.errors)
+		{
+			const auto one = [&](Side side) {
+				const Ratio ratio = RatioAt(contest, contest.Rival(), error, side);
+				return fmt::format("{}{:.2f}", Sign(ratio), ratio.value);
+			};
+			text += fmt::format("{:>10} /{:>6}", one(Side::RAW), one(Side::BEST));
+		}
+		text += '\n';
+	}
+	return text;
+}
+
 std::string WhereWeLose(const RaceReport& report, Side side)
 {
 	struct Cell

@@ -74,6 +74,30 @@ TEST(RaceRatios, MeansAreOfASide)
 	EXPECT_NE(WhereWeLose(report, Side::RAW), WhereWeLose(report, Side::BEST));
 }
 
+TEST(RaceRatios, LinesForATerminalHaveBothSidesOfEveryContest)
+{
+	RaceReport report;
+	report.settings.errors = {0.01, 0.005};
+	report.contests = {Made(2, 4, 6)};
+	report.contests[0].scene.name = "shed";
+	EXPECT_EQ(RatiosInWords(report),
+		"raw / best, at                      0.01             0.005\n"
+		"shed                        3.00 /  6.00      3.00 /  6.00\n");
+}
+
+// --bench: stock once, no pinholes, and truths whose own error is below what is asked for at the finest.
+TEST(RaceSettings, BenchHasNoPinholesAndCountsTheSmallestNumbersOfSamples)
+{
+	const RaceSettings bench = ReadSettings(RACE_SETTINGS, "bench"), full = ReadSettings(RACE_SETTINGS, "full");
+	EXPECT_EQ(bench.pinhole_frames, 0);
+	EXPECT_EQ(bench.check_frames, 0);
+	EXPECT_GT(bench.width * bench.height, full.width * full.height);
+	EXPECT_EQ(bench.errors, full.errors);
+	EXPECT_LT(5 * bench.reference_error, bench.errors.back() + 1e-12);
+	for (const auto* list : {&bench.stock, &bench.ours, &bench.raw, &bench.fixed})
+		EXPECT_FALSE(list->empty());
+}
+
 // Two blocks of 8 x 8: 1.2 times the other picture's error in one, 1.05 times in the other.
 TEST(Race, BlocksThatAreMoreThanATenthWorseAreCounted)
 {
