@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 // frame.h must always be the first POV file included (pulls in platform config)
 #include "backend/frame.h"
@@ -17,9 +18,11 @@ namespace tilt_lens
 
 // Rows that are denoised at a time: enough that their margins hardly count.
 static const int BandHeight = 128;
+// Bands that threads make at a time: each takes 37 kB for a pixel of the picture's width.
+static const int MostAtATime = 4;
 
 DenoisedPicture::DenoisedPicture() :
-	part(), extended(), missing(0), squaredError(0.0), shown(false)
+	part(), extended(), missing(0), making(0), shown(false)
 {
 }
 
@@ -35,11 +38,13 @@ void DenoisedPicture::Begin(int width, int height, int left, int top, int right,
 	noisy.top = e.top;
 	missing = size_t(noisy.width) * noisy.height;
 	recorded.assign(missing, false);
-	bandDone.assign((noisy.height + BandHeight - 1) / BandHeight, false);
+	// Those that lie in the margins alone are not wanted.
+	bands.assign((noisy.height + BandHeight - 1) / BandHeight, Band::IsDone);
+	std::fill(bands.begin() + (top - e.top) / BandHeight, bands.begin() + (bottom - e.top) / BandHeight + 1, Band::Waits);
+	sums.assign(bands.size(), 0.0);
 	for(int c = 0; c < PictureChannels; c++)
 		denoised[c].assign(missing, 0.0f);
 	squaredErrors.assign(missing, 0.0f);
-	squaredError = 0.0;
 	shown = false;
 }
 
@@ -67,16 +72,67 @@ void DenoisedPicture::Record(int x, int y, const SampleSums& sums)
 	recorded[i] = true;
 }
 
+void DenoisedPicture::Make(int top, int bottom, boost::mutex::scoped_lock& lock)
+{
+	const size_t last = (bottom - extended.top) / BandHeight;
+
+	for(size_t band = (top - extended.top) / BandHeight; band <= last; band++)
+		while(bands[band] != Band::IsDone)
+		{
+			const size_t next = NextBand(band);
+
+			if((next < bands.size()) && (making < MostAtATime))
+				MakeBand(next, lock);
+			else
+				changed.wait(lock);
+		}
+}
+
+/// The first that nobody has begun, from the wanted one on and then from the top; bands.size() where there is none.
+size_t DenoisedPicture::NextBand(size_t wanted) const
+{
+	for(size_t i = 0; i < bands.size(); i++)
+	{
+		const size_t band = (wanted + i) % bands.size();
+
+		if(bands[band] == Band::Waits)
+			return band;
+	}
+	return bands.size();
+}
+
+void DenoisedPicture::MakeBand(size_t band, boost::mutex::scoped_lock& lock)
+{
+	const int top = int(band) * BandHeight, bottom = std::min(top + BandHeight, noisy.height) - 1;
+
+	bands[band] = Band::IsMade;
+	making++;
+	lock.unlock();
+	try
+	{
+		// Bands write to rows of their own, and the samples are all there.
+		const double sum = DenoiseRows(noisy, top, bottom, denoised, &squaredErrors);
+		lock.lock();
+		sums[band] = sum;
+		bands[band] = Band::IsDone;
+	}
+	catch(...)
+	{
+		if(!lock.owns_lock())
+			lock.lock();
+		bands[band] = Band::Waits;
+		making--;
+		changed.notify_all();
+		throw;
+	}
+	making--;
+	changed.notify_all();
+}
+
 double DenoisedPicture::Denoised(int x, int y, float *channels)
 {
-	const int row = y - extended.top, band = row / BandHeight;
+	const size_t i = size_t(y - extended.top) * noisy.width + (x - extended.left);
 
-	if(!bandDone[band])
-	{
-		squaredError += DenoiseRows(noisy, band * BandHeight, std::min((band + 1) * BandHeight, noisy.height) - 1, denoised, &squaredErrors);
-		bandDone[band] = true;
-	}
-	const size_t i = size_t(row) * noisy.width + (x - extended.left);
 	for(int c = 0; c < PictureChannels; c++)
 		channels[c] = denoised[c][i];
 	shown = true;
@@ -85,7 +141,7 @@ double DenoisedPicture::Denoised(int x, int y, float *channels)
 
 double DenoisedPicture::RmsError() const
 {
-	return recorded.empty() ? 0.0 : std::sqrt(squaredError / double(recorded.size()));
+	return recorded.empty() ? 0.0 : std::sqrt(std::accumulate(sums.begin(), sums.end(), 0.0) / double(recorded.size()));
 }
 
 }

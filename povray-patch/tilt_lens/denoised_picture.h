@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <vector>
 
+#include <boost/thread/condition_variable.hpp>
 #include <boost/thread/mutex.hpp>
 
 #include "lens/denoise.h"
@@ -37,8 +38,12 @@ class DenoisedPicture
 
 		void Record(int x, int y, const SampleSums& sums);
 
+		/// Denoises what rows top..bottom need, and what no thread has begun while others make that. Gives `lock`, which
+		/// holds the mutex, up meanwhile. Only when complete.
+		void Make(int top, int bottom, boost::mutex::scoped_lock& lock);
+
 		/// A pixel denoised, as PictureChannels numbers, and its estimated standard error (linear, RMS of red, green and
-		/// blue). Only when complete.
+		/// blue). Only of rows that were made.
 		double Denoised(int x, int y, float *channels);
 
 		/// Denoised has been called: the second pass has begun. Needs no lock.
@@ -50,15 +55,21 @@ class DenoisedPicture
 		/// Held while any of the above is called.
 		boost::mutex mutex;
 	private:
+		enum class Band : char { Waits, IsMade, IsDone };
+		void MakeBand(size_t band, boost::mutex::scoped_lock& lock);
+		size_t NextBand(size_t wanted) const;
+
 		struct Rectangle { int left, top, right, bottom; };
 		Rectangle part, extended;           // rendered; with what it depends on
 		size_t missing;
 		NoisyPicture noisy;
 		std::vector<bool> recorded;         // pixels
-		std::vector<bool> bandDone;
+		std::vector<Band> bands;
+		boost::condition_variable changed;  // bands
+		int making;                         // bands that are made now
 		std::vector<float> denoised[PictureChannels];
 		std::vector<float> squaredErrors;   // of pixels
-		double squaredError;                // their sum
+		std::vector<double> sums;           // of them in each band: added up in order, whichever thread came first
 		std::atomic<bool> shown;
 };
 

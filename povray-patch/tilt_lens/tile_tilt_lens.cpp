@@ -99,6 +99,7 @@ bool TracePixel::GiveDenoisedTile(int left, int top, int right, int bottom, vect
 
 	if(!picture.IsComplete())
 		return false;
+	picture.Make(top, bottom, lock);
 	for(int y = top; y <= bottom; y++)
 		for(int x = left; x <= right; x++)
 		{
