@@ -208,9 +208,9 @@ std::string ModelsTable(const Calibration& c)
 	for (size_t s = 1; s < c.task.states.size(); ++s)
 		rows[0].push_back(HtmlText(c.task.states[s].name));
 	rows[0].push_back("seconds");
-	const auto add = [&](Model model, const std::string& failure, const std::string& held_out, double seconds, const auto& lens)
+	const auto add = [&](const std::string& model, const std::string& failure, const std::string& held_out, double seconds, const auto& lens)
 	{
-		rows.push_back({ std::string(NameOf(model)) + (model == c.Answer() ? " (taken)" : "") });
+		rows.push_back({ model });
 		if (!failure.empty())
 			rows.back().push_back("no answer: " + HtmlText(failure));
 		else
@@ -222,9 +222,10 @@ std::string ModelsTable(const Calibration& c)
 		}
 		rows.back().resize(rows[0].size(), "–");
 	};
+	const auto named = [&](Model model) { return std::string(NameOf(model)) + (model == c.Answer() ? " (taken)" : ""); };
 	const auto add_thin = [&](const Solution& s)
 	{
-		add(s.model, s.failure, s.held_out_px > 0 ? Number(s.held_out_px, 3) + " px" : s.model == Model::PAPER ? "–" : "cannot be said of one photograph a state", s.seconds, [&](size_t k) { return s.states[k]; });
+		add(named(s.model), s.failure, s.held_out_px > 0 ? Number(s.held_out_px, 3) + " px" : s.model == Model::PAPER ? "–" : "cannot be said of one photograph a state", s.seconds, [&](size_t k) { return s.states[k]; });
 	};
 	add_thin(c.paper);
 	for (const Solution* s : c.compared->All())
@@ -233,7 +234,14 @@ std::string ModelsTable(const Calibration& c)
 		return html::Table(rows);
 	const RealLens& lens = *c.real_lens;
 	const bool told = lens.held_out > 0 && lens.held_out_thin > 0;
-	add(Model::LENS, lens.failure, told ? Number(lens.held_out / lens.held_out_thin, 2) + " of " + NameOf(c.solution.model) : "cannot be said", lens.seconds, [&](size_t k) { return lens.states[k].lens; });
+	add(named(Model::LENS), lens.failure, told ? Number(lens.held_out / lens.held_out_thin, 2) + " of " + NameOf(c.solution.model) : "cannot be said", lens.seconds, [&](size_t k) { return lens.states[k].lens; });
+	if (c.scene_lens)
+	{
+		const RealLens& scene = *c.scene_lens;
+		const bool compared = scene.held_out > 0 && scene.held_out_thin > 0;
+		add(std::string("lens, sixteen numbers") + (scene.used ? " (for scenes)" : ""), "", compared ? Number(scene.held_out / scene.held_out_thin, 2) + " of lens" : "cannot be said", scene.seconds,
+			[&](size_t k) { return scene.states[k].lens; });
+	}
 	return html::Table(rows) + (told ? std::string("<p><small>Of lens: places and blurs of the edges of photographs left out, each in what is usual of it, against the same of ") + NameOf(c.solution.model) +
 		" after its last refinement.</small></p>\n" : "");
 }

@@ -1,7 +1,7 @@
 # The steps that the demo, its experiments and the tests share. Needs TILTCAL, POVRAY and SCENE (this folder).
 #
 # calibrate_boxes(FOLDER [tiltcal options])      FOLDER/camera-<state>.inc, calibration.json
-# place_boxes(FOLDER [PHOTO])                    FOLDER/pose.inc: where the untilted photograph says the camera stood
+# place_boxes(FOLDER [PHOTO] [--real-lens])      FOLDER/pose.inc: where the untilted photograph says the camera stood
 # render_boxes(FOLDER STATE EXR SAMPLES LOG [POV-Ray options])
 # compare_boxes(STATE EXR MATCH JSON OUT)        along the red and the green line
 # Any step that fails ends the script, with what the program said.
@@ -43,10 +43,13 @@ function(calibrate_boxes folder)
 endfunction()
 
 function(place_boxes folder)
+	set(through ${ARGN})
+	list(FILTER through INCLUDE REGEX "^--")
 	set(photo "${PHOTOS}/scene/untilted.${PHOTO_SUFFIX}" ${ARGN})
+	list(FILTER photo EXCLUDE REGEX "^--")
 	list(GET photo -1 photo)
 	run(COMMAND "${TILTCAL}" pose --calibration "${folder}/calibration.json" --state untilted --points "${SCENE}/points.csv"
-		--photo "${photo}" --overlay "${folder}/pose-points.png" --out "${folder}/pose.inc")
+		--photo "${photo}" ${through} --overlay "${folder}/pose-points.png" --out "${folder}/pose.inc")
 endfunction()
 
 function(render_boxes folder state exr samples log)

@@ -241,6 +241,11 @@ TEST(Photographs, PageHasAllPhotographsAndNumbers)
 	}
 	for (const Json& remark : json.at("verdict").at("remarks"))
 		EXPECT_THAT(page.text, testing::HasSubstr(remark.at("text").get<std::string>()));
+	// The answer from model to model, and what each takes.
+	for (const char* const model : { "paper", "plane", "curved", "lens (taken)", "lens, sixteen numbers (for scenes)" })
+		EXPECT_THAT(page.text, testing::HasSubstr(model));
+	for (const char* const lens : { "real_lens", "scene_lens" })
+		has(json.at(lens).at("states")[1], "lens_tilt", "_deg");
 }
 
 // Two rims stand for those of ten surfaces, one on each side. Radius and distance of a rim are bound to each other, and the two rims too, so that no numbers of theirs are
