@@ -232,17 +232,15 @@ std::string ModelsTable(const Calibration& c)
 		add_thin(*s);
 	if (!c.real_lens)
 		return html::Table(rows);
-	const RealLens& lens = *c.real_lens;
-	const bool told = lens.held_out > 0 && lens.held_out_thin > 0;
-	add(named(Model::LENS), lens.failure, told ? Number(lens.held_out / lens.held_out_thin, 2) + " of " + NameOf(c.solution.model) : "cannot be said", lens.seconds, [&](size_t k) { return lens.states[k].lens; });
-	if (c.scene_lens)
+	const auto told = [](const RealLens& lens) { return lens.held_out > 0 && lens.held_out_thin > 0; };
+	const auto add_real = [&](const std::string& model, const RealLens& lens, const std::string& than)
 	{
-		const RealLens& scene = *c.scene_lens;
-		const bool compared = scene.held_out > 0 && scene.held_out_thin > 0;
-		add(std::string("lens, sixteen numbers") + (scene.used ? " (for scenes)" : ""), "", compared ? Number(scene.held_out / scene.held_out_thin, 2) + " of lens" : "cannot be said", scene.seconds,
-			[&](size_t k) { return scene.states[k].lens; });
-	}
-	return html::Table(rows) + (told ? std::string("<p><small>Of lens: places and blurs of the edges of photographs left out, each in what is usual of it, against the same of ") + NameOf(c.solution.model) +
+		add(model, lens.failure, told(lens) ? Number(lens.held_out / lens.held_out_thin, 2) + " of " + than : "cannot be said", lens.seconds, [&](size_t k) { return lens.states[k].lens; });
+	};
+	add_real(named(Model::LENS), *c.real_lens, NameOf(c.solution.model));
+	if (c.scene_lens)
+		add_real(std::string("lens, sixteen numbers") + (c.scene_lens->used ? " (for scenes)" : ""), *c.scene_lens, NameOf(Model::LENS));
+	return html::Table(rows) + (told(*c.real_lens) ? std::string("<p><small>Of lens: places and blurs of the edges of photographs left out, each in what is usual of it, against the same of ") + NameOf(c.solution.model) +
 		" after its last refinement.</small></p>\n" : "");
 }
 

@@ -105,28 +105,28 @@ void DenoisedPicture::MakeBand(size_t band, boost::mutex::scoped_lock& lock)
 {
 	const int top = int(band) * BandHeight, bottom = std::min(top + BandHeight, noisy.height) - 1;
 
+	const auto finish = [&](Band state)
+	{
+		lock.lock();
+		bands[band] = state;
+		making--;
+		changed.notify_all();
+	};
+
 	bands[band] = Band::IsMade;
 	making++;
 	lock.unlock();
 	try
 	{
-		// Bands write to rows of their own, and the samples are all there.
-		const double sum = DenoiseRows(noisy, top, bottom, denoised, &squaredErrors);
-		lock.lock();
-		sums[band] = sum;
-		bands[band] = Band::IsDone;
+		// Bands write to rows and sums of their own, and the samples are all there.
+		sums[band] = DenoiseRows(noisy, top, bottom, denoised, &squaredErrors);
 	}
 	catch(...)
 	{
-		if(!lock.owns_lock())
-			lock.lock();
-		bands[band] = Band::Waits;
-		making--;
-		changed.notify_all();
+		finish(Band::Waits);
 		throw;
 	}
-	making--;
-	changed.notify_all();
+	finish(Band::IsDone);
 }
 
 double DenoisedPicture::Denoised(int x, int y, float *channels)

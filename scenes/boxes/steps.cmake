@@ -4,6 +4,7 @@
 # place_boxes(FOLDER [PHOTO] [--real-lens])      FOLDER/pose.inc: where the untilted photograph says the camera stood
 # render_boxes(FOLDER STATE EXR SAMPLES LOG [POV-Ray options])
 # compare_boxes(STATE EXR MATCH JSON OUT)        along the red and the green line
+# table_2_row(TABLE TITLE CAMERAS FOLDER SAMPLES [POV-Ray options])   a row of Table 2 (cmake/tables.cmake), its pictures in FOLDER
 # Any step that fails ends the script, with what the program said.
 include("${CMAKE_CURRENT_LIST_DIR}/../cmake/script.cmake")
 
@@ -61,4 +62,19 @@ endfunction()
 function(compare_boxes state exr match json out)
 	compare_command(command "${PHOTOS}/scene/${state}.${PHOTO_SUFFIX}" "${exr}" ${match} "${json}" "${out}")
 	run(COMMAND ${command})
+endfunction()
+
+function(table_2_row its_table title cameras folder samples)
+	file(MAKE_DIRECTORY "${folder}")
+	set(cells "${title}")
+	foreach(state IN LISTS STATES)
+		render_boxes("${cameras}" ${state} "${folder}/${state}.exr" ${samples} log ${ARGN})
+		compare_boxes(${state} "${folder}/${state}.exr" gain "${folder}/${state}.json" "${folder}/${state}")
+		line_errors("${folder}/${state}.json" errors)
+		list(APPEND cells "${errors}")
+	endforeach()
+	set(row "")
+	table_row(row ${cells})
+	message("${row}")
+	set(${its_table} "${${its_table}}${row}" PARENT_SCOPE)
 endfunction()
