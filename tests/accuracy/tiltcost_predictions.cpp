@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 //
-// tiltcost's predictions against renders: camera rays and CPU time against the render's own, error against a truth of other lens
-// samples. Predictions are made once, before anything is rendered. Writes tiltcost.csv and tiltcost.html (a fragment for the
+// tiltcost's predictions against renders: camera rays and CPU time against the render's own, errors, raw and denoised, against a truth of
+// other lens samples. Predictions are made once, before anything is rendered. Writes tiltcost.csv and tiltcost.html (a fragment for the
 // report) and fails when a prediction is out of bounds.
 //
 // Without options at the size and with the blocks of COSTS.md: 120 of 1920 x 1080 pixels. --small is ctest's: there seconds are shown, not
@@ -51,7 +51,9 @@ struct Row
 {
 	int min = 0, max = 0;
 	double variance = 0, confidence = 0.9;
+	bool denoise = false;                  ///< whether it is rendered so
 	double error = 0, rays = 0, cpu = 0;
+	double denoised_error = 0;             ///< predicted for the same with denoise; 0: not known
 };
 
 struct Scene
@@ -77,16 +79,19 @@ struct Result
 	Row predicted;
 	double share = 0, error_sigma = 0, time_sigma = 0;
 	double error = 0, uncertain = 0, rays = 0, cpu = 0;   ///< as rendered; `uncertain`: one standard deviation of `error`, relative
+	double denoised = 0, denoised_uncertain = 0;          ///< errors of the same with denoise, where they are predicted
 
 	double ErrorOff() const { return predicted.error / error - 1; }
 	double RaysOff() const { return predicted.rays / rays - 1; }
 	double TimeOff() const { return predicted.cpu / cpu - 1; }
+	double DenoisedOff() const { return denoised > 0 ? predicted.denoised_error / denoised - 1 : 0; }
 	double ErrorLimit() const { return std::max(ErrorBound, Student * std::hypot(error_sigma, uncertain)); }
+	double DenoisedLimit() const { return std::max(ErrorBound, Student * std::hypot(error_sigma, denoised_uncertain)); }
 	double TimeLimit() const { return std::max(TimeBound, Student * time_sigma); }
 	/// Time is rays times what one takes: the bound of the product holds for the factor that is the machine's no affair.
 	bool Good(bool judge_time) const
 	{
-		return std::abs(ErrorOff()) <= ErrorLimit() && std::abs(RaysOff()) <= TimeLimit() && (!judge_time || std::abs(TimeOff()) <= TimeLimit());
+		return std::abs(ErrorOff()) <= ErrorLimit() && std::abs(DenoisedOff()) <= DenoisedLimit() && std::abs(RaysOff()) <= TimeLimit() && (!judge_time || std::abs(TimeOff()) <= TimeLimit());
 	}
 };
 
@@ -130,11 +135,12 @@ std::vector<std::string> SceneWords(const Places& places, const Scene& scene, co
 		const auto declare = [](const char* name, double value) { return fmt::format("Declare=Race_{}={:.9g}", name, value); };
 		return {(places.races / (scene.name + ".pov")).string(), "+L" + places.races.string(), width, height, work, declare("Camera", 1),
 			declare("Tilted", scene.tilted), declare("Min", row.min), declare("Max", row.max), declare("Variance", row.variance),
-			declare("Confidence", row.confidence), declare("Seed", seed)};
+			declare("Confidence", row.confidence), declare("Seed", seed),
+			declare("Denoise", row.denoise)};
 	}
 	const fs::path folder = places.scenes / scene.name, file = places.out / (scene.name + ".pov");
 	std::string text = Contents(folder / (scene.name + ".pov"));
-	Replace(text, "tilt_lens {", fmt::format("tilt_lens {{ seed {}", seed));
+	Replace(text, "tilt_lens {", fmt::format("tilt_lens {{ seed {} {}", seed, row.denoise ? "denoise" : ""));
 	Replace(text, "blur_samples 16, 256", row.min > 0 ? fmt::format("blur_samples {}, {}", row.min, row.max) : fmt::format("blur_samples {}", row.max));
 	Replace(text, "variance 0.00002", fmt::format("variance {:.9g}", row.variance));
 	std::ofstream(file) << text;
@@ -203,8 +209,8 @@ Predicted RunTiltcost(const Places& places, const Scene& scene, unsigned threads
 		char kind[32];
 		Row row;
 		double levels, per_pixel, wall;
-		if (std::sscanf(rest.c_str(), "%31[^,],%lf,%lf,%lf,%lf,%lf,%lf,%d,%d,%lf,%lf", kind, &row.error, &levels, &row.rays, &per_pixel, &row.cpu, &wall,
-			&row.min, &row.max, &row.variance, &row.confidence) != 11)
+		if (std::sscanf(rest.c_str(), "%31[^,],%lf,%lf,%lf,%lf,%lf,%lf,%d,%d,%lf,%lf,%*f,%lf", kind, &row.error, &levels, &row.rays, &per_pixel, &row.cpu, &wall,
+			&row.min, &row.max, &row.variance, &row.confidence, &row.denoised_error) != 12)
 			throw std::runtime_error("tiltcost wrote " + line);
 		predicted.rows.push_back(row);
 	}
@@ -239,8 +245,13 @@ Truth RenderTruth(const Places& places, const Scene& scene)
 	return truth;
 }
 
+struct Judged
+{
+	double error = 0, uncertain = 0;
+};
+
 /// The picture's error: its square distance from the truth less the truth's own. How uncertain that is, is seen in blocks of 16 x 16 pixels.
-void Judge(const Picture& picture, const Truth& truth, Result& result)
+Judged Judge(const Picture& picture, const Truth& truth, const std::string& scene)
 {
 	const int size = 16, across = (picture.width + size - 1) / size, down = (picture.height + size - 1) / size;
 	std::vector<double> sums(size_t(across) * size_t(down), 0.0);
@@ -256,9 +267,8 @@ void Judge(const Picture& picture, const Truth& truth, Result& result)
 	for (const double of_block : sums)
 		squares += std::pow(of_block - sum / double(sums.size()), 2);
 	if (sum <= 0)
-		throw std::runtime_error(result.scene + ": the truth is too coarse to judge the render");
-	result.error = std::sqrt(sum / double(picture.rgb.size()));
-	result.uncertain = std::sqrt(squares) / sum / 2;
+		throw std::runtime_error(scene + ": the truth is too coarse to judge the render");
+	return {std::sqrt(sum / double(picture.rgb.size())), std::sqrt(squares) / sum / 2};
 }
 
 std::vector<Result> CheckScene(const Places& places, const Scene& scene)
@@ -273,30 +283,47 @@ std::vector<Result> CheckScene(const Places& places, const Scene& scene)
 			[&](const Row& a, const Row& b) { return std::abs(std::log(a.error / error)) < std::abs(std::log(b.error / error)); });
 		Result result = {scene.name, row, predicted.share, predicted.error_sigma, predicted.time_sigma};
 		const Rendered rendered = Render(places, scene, row, 0, threads);
-		Judge(rendered.picture, truth, result);
+		const Judged raw = Judge(rendered.picture, truth, scene.name);
+		result.error = raw.error;
+		result.uncertain = raw.uncertain;
 		result.rays = rendered.rays;
 		result.cpu = rendered.cpu;
+		if (row.denoised_error > 0)
+		{
+			Row with = row;
+			with.denoise = true;
+			const Judged denoised = Judge(Render(places, scene, with, 0, threads).picture, truth, scene.name);
+			result.denoised = denoised.error;
+			result.denoised_uncertain = denoised.uncertain;
+		}
 		results.push_back(result);
 	}
 	return results;
 }
 
+std::string DenoisedCells(const Result& r)
+{
+	if (r.denoised <= 0)
+		return "<td>-</td><td></td><td></td><td></td>";
+	return fmt::format("<td>{:.4f}</td><td>{:.4f}</td><td>{:+.0f} %</td><td>{:.0f} %</td>", r.predicted.denoised_error, r.denoised, 100 * r.DenoisedOff(), 100 * r.DenoisedLimit());
+}
+
 void Write(const Places& places, const std::vector<Result>& results)
 {
-	std::string csv = "scene,min,max,variance,predicted_error,predicted_error_sigma,error,error_sigma,predicted_rays,rays,predicted_cpu_s,predicted_cpu_sigma,cpu_s,pilot_share\n";
+	std::string csv = "scene,min,max,variance,predicted_error,predicted_error_sigma,error,error_sigma,predicted_rays,rays,predicted_cpu_s,predicted_cpu_sigma,cpu_s,pilot_share,predicted_denoised_error,denoised_error,denoised_error_sigma\n";
 	std::string html = fmt::format("<h2>tiltcost: predicted and rendered</h2>\n<p>{} × {} pixels, predicted once before anything is rendered, from the part of the picture that stands beside it. Errors against "
 		"truths with other lens samples, whose own error is taken off. Bounds: {:.0f} % in rays{}, {:.0f} % in error, or {:.2f} standard deviations (Student's t, once in 1000) where those are wider."
 		"</p>\n<table><tr><th>scene</th><th>pilot</th><th>blur_samples, variance</th><th>error predicted</th><th>rendered</th><th>off by</th><th>bound</th>"
-		"<th>rays predicted</th><th>rendered</th><th>off by</th><th>CPU s predicted</th><th>rendered</th><th>off by</th><th>bound</th></tr>\n", places.effort.width, places.effort.height, 100 * TimeBound,
+		"<th>denoised, predicted</th><th>rendered</th><th>off by</th><th>bound</th><th>rays predicted</th><th>rendered</th><th>off by</th><th>CPU s predicted</th><th>rendered</th><th>off by</th><th>bound</th></tr>\n", places.effort.width, places.effort.height, 100 * TimeBound,
 		places.effort.judge_time ? " and in time" : " (seconds are shown, not judged)", 100 * ErrorBound, Student);
 	for (const Result& r : results)
 	{
 		const Row& p = r.predicted;
-		csv += fmt::format("{},{},{},{:g},{:.5g},{:.3g},{:.5g},{:.3g},{:.0f},{:.0f},{:.4g},{:.3g},{:.4g},{:.4g}\n", r.scene, p.min, p.max, p.variance, p.error, r.error_sigma, r.error, r.uncertain,
-			p.rays, r.rays, p.cpu, r.time_sigma, r.cpu, r.share);
-		html += fmt::format("<tr{}><td>{}</td><td>{:.1f} %</td><td>{}, {}, {:g}</td><td>{:.4f}</td><td>{:.4f}</td><td>{:+.0f} %</td><td>{:.0f} %</td><td>{:.0f}</td><td>{:.0f}</td><td>{:+.0f} %</td>"
+		csv += fmt::format("{},{},{},{:g},{:.5g},{:.3g},{:.5g},{:.3g},{:.0f},{:.0f},{:.4g},{:.3g},{:.4g},{:.4g},{:.5g},{:.5g},{:.3g}\n", r.scene, p.min, p.max, p.variance, p.error, r.error_sigma, r.error, r.uncertain,
+			p.rays, r.rays, p.cpu, r.time_sigma, r.cpu, r.share, r.denoised > 0 ? p.denoised_error : 0, r.denoised, r.denoised_uncertain);
+		html += fmt::format("<tr{}><td>{}</td><td>{:.1f} %</td><td>{}, {}, {:g}</td><td>{:.4f}</td><td>{:.4f}</td><td>{:+.0f} %</td><td>{:.0f} %</td>{}<td>{:.0f}</td><td>{:.0f}</td><td>{:+.0f} %</td>"
 			"<td>{:.2f}</td><td>{:.2f}</td><td>{:+.0f} %</td><td>{:.0f} %</td></tr>\n", r.Good(places.effort.judge_time) ? "" : " class=\"lost\"", r.scene, 100 * r.share, p.min, p.max, p.variance, p.error, r.error, 100 * r.ErrorOff(), 100 * r.ErrorLimit(),
-			p.rays, r.rays, 100 * r.RaysOff(), p.cpu, r.cpu, 100 * r.TimeOff(), 100 * r.TimeLimit());
+			DenoisedCells(r), p.rays, r.rays, 100 * r.RaysOff(), p.cpu, r.cpu, 100 * r.TimeOff(), 100 * r.TimeLimit());
 	}
 	html += "</table>\n";
 	std::ofstream(places.out / "tiltcost.csv") << csv;
@@ -337,9 +364,9 @@ int main(int argc, char** argv)
 			{
 				results.push_back(r);
 				const Row& p = r.predicted;
-				fmt::print("{} {:<11} {:4.1f} %  {:>2}, {:>4}, {:<7g} error {:.5f} is {:.5f} ({:+3.0f} % of {:.0f} %; known to {:.1f} %)  rays {:.0f} is {:.0f} ({:+3.0f} %)  CPU {:6.2f} s is {:6.2f} s ({:+3.0f} % of {:.0f} %)\n",
+				fmt::print("{} {:<11} {:4.1f} %  {:>2}, {:>4}, {:<7g} error {:.5f} is {:.5f} ({:+3.0f} % of {:.0f} %; known to {:.1f} %)  denoised {:.5f} is {:.5f} ({:+3.0f} % of {:.0f} %)  rays {:.0f} is {:.0f} ({:+3.0f} %)  CPU {:6.2f} s is {:6.2f} s ({:+3.0f} % of {:.0f} %)\n",
 					r.Good(places.effort.judge_time) ? ' ' : '!', r.scene, 100 * r.share, p.min, p.max, p.variance, p.error, r.error, 100 * r.ErrorOff(), 100 * r.ErrorLimit(), 100 * r.uncertain,
-					p.rays, r.rays, 100 * r.RaysOff(), p.cpu, r.cpu, 100 * r.TimeOff(), 100 * r.TimeLimit());
+					r.denoised > 0 ? p.denoised_error : 0, r.denoised, 100 * r.DenoisedOff(), 100 * r.DenoisedLimit(), p.rays, r.rays, 100 * r.RaysOff(), p.cpu, r.cpu, 100 * r.TimeOff(), 100 * r.TimeLimit());
 				std::fflush(stdout);
 			}
 		}
