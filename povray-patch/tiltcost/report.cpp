@@ -133,13 +133,13 @@ std::string AnswerText(const Row& row)
 
 std::string CsvText(const Report& report)
 {
-	std::string text = "scene,kind,rms_error,levels_8bit,rays,rays_per_pixel,cpu_s,wall_s,min,max,variance,confidence,extrapolated,denoised_rms_error\n";
+	std::string text = "scene,kind,rms_error,levels_8bit,rays,rays_per_pixel,cpu_s,wall_s,min,max,variance,confidence,extrapolated,denoised_rms_error,denoise_cpu_s\n";
 	const size_t stop = StopsPaying(report.rows, report.stop_levels);
 	const auto add = [&](const Row& row, const char* kind)
 	{
 		const Prediction& p = row.predicted;
-		text += fmt::format("{},{},{:.6g},{:.4g},{:.6g},{:.5g},{:.5g},{:.5g},{},{},{:.9g},{:.9g},{:.3g},{:.6g}\n", Quoted(report.scene), kind, p.error, p.Levels(), row.rays,
-			row.rays_per_pixel, row.cpu, row.wall, row.setting.min, row.setting.max, row.setting.variance, row.setting.confidence, p.extrapolated, row.denoised_error);
+		text += fmt::format("{},{},{:.6g},{:.4g},{:.6g},{:.5g},{:.5g},{:.5g},{},{},{:.9g},{:.9g},{:.3g},{:.6g},{:.3g}\n", Quoted(report.scene), kind, p.error, p.Levels(), row.rays,
+			row.rays_per_pixel, row.cpu, row.wall, row.setting.min, row.setting.max, row.setting.variance, row.setting.confidence, p.extrapolated, row.denoised_error, report.denoise_seconds);
 	};
 	for (size_t i = 0; i < report.rows.size(); ++i)
 		add(report.rows[i], i == stop ? "stops-paying" : "row");

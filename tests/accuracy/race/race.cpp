@@ -2,7 +2,7 @@
 //
 // What accuracy costs: tilt_lens against stock focal blur, averaged pinholes and itself with a fixed N.
 //
-//   race --ours POVRAY --stock POVRAY [--quick | --bench] [--scene NAME ...] --out DIR --work DIR
+//   race --ours POVRAY --stock POVRAY [--quick | --bench | --size WxH] [--scene NAME ...] --out DIR --work DIR
 #include "race_report.h"
 
 #include <CLI/CLI.hpp>
@@ -75,7 +75,7 @@ try
 	Programs programs;
 	fs::path scenes, settings_file, out, work;
 	std::vector<std::string> names;
-	std::string mode = "full";
+	std::string mode = "full", size;
 	bool quick = false, bench = false, list = false, reuse_stock = false;
 	int jobs = 1;
 	CLI::App app{"Error against CPU time: tilt_lens, stock focal blur, averaged pinholes."};
@@ -89,7 +89,9 @@ try
 	app.add_option("--work", work, "folder of everything else; keeps references")->required();
 	app.add_option("--jobs", jobs, "scenes at a time")->check(CLI::Range(1, 64));
 	CLI::Option *quickly = app.add_flag("--quick", quick, "smaller pictures, fewer settings");
-	app.add_flag("--bench", bench, "what a change is worth, in minutes: larger pictures, few settings; stock and the truths, by the first --ours, are made once and kept in --work")->excludes(quickly);
+	CLI::Option *benched = app.add_flag("--bench", bench, "what a change is worth, in minutes: larger pictures, few settings; stock and the truths, by the first --ours, are made once and kept in --work")->excludes(quickly);
+	app.add_option("--size", size, "640x360 or 1920x1080: larger pictures, few settings, no tilted planes; times are those of whole pictures")
+		->check(CLI::IsMember({"640x360", "1920x1080"}))->excludes(quickly)->excludes(benched);
 	app.add_flag("--list", list, "list the contests");
 	app.add_flag("--reuse-stock", reuse_stock, "take stock's pictures and times from an earlier race; for work on tilt_lens");
 	try
@@ -102,6 +104,8 @@ try
 	}
 	if (quick || bench)
 		mode = quick ? "quick" : "bench";
+	else if (!size.empty())
+		mode = size;
 	reuse_stock |= bench;
 	RaceReport report;
 	report.settings = ReadSettings(settings_file, mode);
@@ -162,7 +166,7 @@ try
 			};
 			try
 			{
-				const Renderer renderer(programs, entry.scene, work, entry.Name(), report.settings.width, report.settings.height);
+				const Renderer renderer(programs, entry.scene, work, entry.Name(), report.settings);
 				Contest contest = RunContest(renderer, entry.scene, entry.tilted, report.settings, reuse_stock, say);
 				const std::lock_guard<std::mutex> lock(mutex);
 				finished[i] = std::move(contest);

@@ -67,11 +67,13 @@ void Judge(RacePoint& point, const Picture& picture, const Contest& contest, con
 }
 
 // Stock, ours and fixed by turns, so that whatever else the machine does falls on all of them alike.
-std::vector<Setting> Interleaved(const RaceSettings& settings, bool stock)
+std::vector<Setting> Interleaved(const RaceSettings& settings, bool stock, bool area_lights)
 {
 	std::vector<const std::vector<Setting>*> lists = {&settings.ours, &settings.raw, &settings.fixed};
 	if (stock)
 		lists.push_back(&settings.stock);
+	if (area_lights)
+		lists.push_back(&settings.grid);
 	std::vector<std::pair<double, Setting>> order;
 	for (const auto* list : lists)
 		for (std::size_t i = 0; i < list->size(); ++i)
@@ -308,9 +310,9 @@ Contest RunContest(const Renderer& renderer, const RaceScene& scene, bool tilted
 			contest.limit_error, contest.stock_offset.dx, contest.stock_offset.dy));
 		contest.start_up[Opponent::STOCK] = renderer.StartUp(Opponent::STOCK, false);
 	}
-	contest.start_up[Opponent::OURS] = contest.start_up[Opponent::RAW] = contest.start_up[Opponent::FIXED] = renderer.StartUp(Opponent::OURS, tilted);
+	contest.start_up[Opponent::OURS] = contest.start_up[Opponent::RAW] = contest.start_up[Opponent::FIXED] = contest.start_up[Opponent::GRID] = renderer.StartUp(Opponent::OURS, tilted);
 
-	std::vector<Setting> order = Interleaved(settings, !tilted);
+	std::vector<Setting> order = Interleaved(settings, !tilted, scene.area_lights);
 	Measurement measurement(contest, renderer, settings, reuse_stock, tilted ? nullptr : &limit);
 	for (int repeat = 0; repeat < settings.repeats; ++repeat)
 	{

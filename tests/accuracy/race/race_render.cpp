@@ -45,16 +45,14 @@ std::uint64_t HashOfProgram(const fs::path& path)
 	return found != known.end() ? found->second : known[path] = Hash(Contents(path));
 }
 
-Picture Cropped(const Picture& picture, int pad, int width, int height)
+Picture Cropped(const Picture& picture, int left, int top, int width, int height)
 {
-	if (picture.width != width + 2 * pad || picture.height != height + 2 * pad)
-		throw std::runtime_error(fmt::format("POV-Ray wrote {} x {} pixels", picture.width, picture.height));
-	if (pad == 0)
+	if (picture.width == width && picture.height == height)
 		return picture;
 	Picture part{width, height, {}, {}};
 	for (int y = 0; y < height; ++y)
 	{
-		const auto row = picture.rgb.begin() + 3 * ((y + pad) * picture.width + pad);
+		const auto row = picture.rgb.begin() + 3 * ((y + top) * picture.width + left);
 		part.rgb.insert(part.rgb.end(), row, row + 3 * width);
 	}
 	return part;
@@ -74,8 +72,9 @@ int Renderer::Pad(const Setting& setting) const
 	return setting.opponent == Opponent::STOCK || !programs.seed ? 3 * setting.seed : 0;
 }
 
-Renderer::Renderer(const Programs& all, const RaceScene& shown, const fs::path& folder, const std::string& name, int w, int h)
-	: programs(all), scene(shown), work(folder / name), cache(folder / "cache"), width(w), height(h)
+Renderer::Renderer(const Programs& all, const RaceScene& shown, const fs::path& folder, const std::string& name, const RaceSettings& settings)
+	: programs(all), scene(shown), work(folder / name), cache(folder / "cache"), width(settings.width), height(settings.height), whole{0, 0, width, height},
+	  judged{(width - settings.judged_width) / 2, (height - settings.judged_height) / 2, settings.judged_width, settings.judged_height}
 {
 	for (const fs::path& program : {programs.ours, programs.stock, programs.reference})
 		if (!fs::exists(program))
@@ -84,7 +83,7 @@ Renderer::Renderer(const Programs& all, const RaceScene& shown, const fs::path& 
 	fs::create_directories(cache);
 }
 
-std::vector<std::string> Renderer::Command(const fs::path& program, const Setting& setting, int w, int h) const
+std::vector<std::string> Renderer::Command(const fs::path& program, const Setting& setting, int w, int h, const Part& part) const
 {
 	const int pad = Pad(setting);
 	const auto declare = [](const char* name, double value) { return fmt::format("Declare=Race_{}={:.9g}", name, value); };
@@ -100,31 +99,40 @@ std::vector<std::string> Renderer::Command(const fs::path& program, const Settin
 	command.insert(command.end(), {"+FP16", "File_Gamma=1", "+Opicture.ppm", declare("Camera", setting.opponent != Opponent::STOCK),
 		declare("Min", setting.min), declare("Max", setting.max), declare("Variance", setting.variance),
 		declare("Confidence", setting.confidence), declare("Bokeh", setting.bokeh), declare("Denoise", setting.denoise)});
+	if (setting.grid)
+		command.push_back(declare("Grid", 1));
+	if (pad > 0 || part.width < w || part.height < h)
+		command.insert(command.end(), {fmt::format("+SC{}", pad + part.left + 1), fmt::format("+EC{}", pad + part.left + part.width),
+			fmt::format("+SR{}", pad + part.top + 1), fmt::format("+ER{}", pad + part.top + part.height)});
 	if (pad > 0)
-		command.insert(command.end(), {declare("Pad", pad), fmt::format("+SC{}", pad + 1), fmt::format("+EC{}", pad + w),
-			fmt::format("+SR{}", pad + 1), fmt::format("+ER{}", pad + h)});
+		command.push_back(declare("Pad", pad));
 	else if (setting.seed != 0)
 		command.push_back(declare("Seed", setting.seed));
 	return command;
 }
 
-Rendered Renderer::Run(const fs::path& program, const Setting& setting) const
+Rendered Renderer::Run(const fs::path& program, const Setting& setting, const Part& part) const
 {
 	const fs::path file = work / "picture.ppm";
 	fs::remove(file);
-	const Cost cost = RunMeasured(Command(program, setting, width, height), work, work / "povray.log");
-	return {Cropped(ReadPpm(file.string()), Pad(setting), width, height), cost};
+	const Cost cost = RunMeasured(Command(program, setting, width, height, part), work, work / "povray.log");
+	const Picture picture = ReadPpm(file.string());
+	const int pad = Pad(setting);
+	if (picture.width != width + 2 * pad || picture.height != height + 2 * pad)
+		throw std::runtime_error(fmt::format("POV-Ray wrote {} x {} pixels", picture.width, picture.height));
+	return {Cropped(picture, pad + judged.left, pad + judged.top, judged.width, judged.height), cost};
 }
 
 Rendered Renderer::Render(const Setting& setting) const
 {
-	return Run(setting.opponent == Opponent::STOCK ? programs.stock : programs.ours, setting);
+	return Run(setting.opponent == Opponent::STOCK ? programs.stock : programs.ours, setting, whole);
 }
 
 std::string Renderer::Key(const fs::path& program, const Setting& setting) const
 {
 	std::string text = Contents(scene.file) + Contents(scene.file.parent_path() / "race_camera.inc");
-	for (const std::string& word : Command("", setting, width, height))
+	text += fmt::format("{} {}\n", judged.width, judged.height);
+	for (const std::string& word : Command("", setting, width, height, whole))
 		if (word.compare(0, 2, "+I") != 0 && word.compare(0, 2, "+L") != 0)
 			text += word + "\n";
 	return fmt::format("{}-{:016x}", scene.name, Hash(text) ^ HashOfProgram(program));
@@ -135,8 +143,8 @@ Picture Renderer::Reference(const Setting& setting) const
 	const fs::path& program = setting.opponent == Opponent::STOCK ? programs.stock : programs.reference;
 	const fs::path file = cache / (Key(program, setting) + ".raw");
 	if (fs::exists(file))
-		return ReadRaw(file.string(), width, height);
-	const Picture picture = Run(program, setting).picture;
+		return ReadRaw(file.string(), judged.width, judged.height);
+	const Picture picture = Run(program, setting, judged).picture;
 	// A race that is interrupted must not leave half a picture.
 	fs::path partial = file;
 	partial += fmt::format(".{}", scene.name);
@@ -152,7 +160,7 @@ Rendered Renderer::RenderOrReuse(const Setting& setting, bool reuse, int repeat)
 	Rendered rendered;
 	if (reuse && fs::exists(raw) && std::ifstream(times) >> rendered.cost.cpu >> rendered.cost.wall >> rendered.cost.rss)
 	{
-		rendered.picture = ReadRaw(raw.string(), width, height);
+		rendered.picture = ReadRaw(raw.string(), judged.width, judged.height);
 		return rendered;
 	}
 	rendered = Render(setting);
@@ -171,7 +179,7 @@ double Renderer::StartUp(Opponent opponent, bool tilted) const
 	for (int i = 0; i < 4; ++i)
 	{
 		const fs::path& program = opponent == Opponent::STOCK ? programs.stock : programs.ours;
-		least = std::min(least, RunMeasured(Command(program, setting, 1, 1), work, work / "povray.log").cpu);
+		least = std::min(least, RunMeasured(Command(program, setting, 1, 1, {0, 0, 1, 1}), work, work / "povray.log").cpu);
 	}
 	return least;
 }
@@ -186,7 +194,7 @@ Cost Renderer::Pinholes(int frames, bool tilted, double& start_up, const std::fu
 	const auto folder = [&](int batch) { return work / fmt::format("pinholes{}", batch); };
 	const auto run = [&](int batch, int w, int h) {
 		fs::create_directories(folder(batch));
-		std::vector<std::string> command = Command(programs.stock, setting, w, h);
+		std::vector<std::string> command = Command(programs.stock, setting, w, h, {0, 0, w, h});
 		command.insert(command.end(), {fmt::format("+KFI{}", batch * length + 1), fmt::format("+KFF{}", std::min((batch + 1) * length, frames))});
 		return RunMeasured(command, folder(batch), folder(batch) / "povray.log");
 	};

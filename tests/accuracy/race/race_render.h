@@ -27,11 +27,12 @@ class Renderer
 public:
 	// Everything is written to the folder `name` below `folder`. Throws std::runtime_error when a program is missing.
 	Renderer(const Programs& all, const RaceScene& shown, const std::filesystem::path& folder, const std::string& name,
-		int w, int h);
+		const RaceSettings& settings);
 
+	// Renders, and measures, the whole picture; what is returned is the part that is judged.
 	Rendered Render(const Setting& setting) const;
 
-	// By the reference's program. Kept on disk, and read from there when program, scene and setting are the same.
+	// The judged part, by the reference's program, which renders no more. Kept on disk, and read from there when program, scene and setting are the same.
 	Picture Reference(const Setting& setting) const;
 
 	// As Render, or, when `reuse`, what an earlier race with the same program, scene and setting found.
@@ -48,12 +49,18 @@ private:
 	// Pixels added on every side: the only way to other random numbers in stock, which derives them from the pixel's
 	// coordinates.
 	int Pad(const Setting& setting) const;
-	std::vector<std::string> Command(const std::filesystem::path& program, const Setting& setting, int w, int h) const;
-	Rendered Run(const std::filesystem::path& program, const Setting& setting) const;
+	// Of the rectangle `part` of a picture of w x h pixels.
+	struct Part
+	{
+		int left, top, width, height;
+	};
+	std::vector<std::string> Command(const std::filesystem::path& program, const Setting& setting, int w, int h, const Part& part) const;
+	Rendered Run(const std::filesystem::path& program, const Setting& setting, const Part& part) const;
 	std::string Key(const std::filesystem::path& program, const Setting& setting) const;
 
 	Programs programs;
 	RaceScene scene;
 	std::filesystem::path work, cache;
 	int width, height;
+	Part whole, judged;
 };

@@ -46,14 +46,15 @@ std::string Base64(const std::vector<unsigned char>& bytes)
 	return text;
 }
 
-// Display gamma, twice the size.
+// Display gamma, 400 pixels wide.
 std::string Thumbnail(const Picture& picture)
 {
 	cv::Mat image(picture.height, picture.width, CV_8UC3);
 	for (int i = 0; i < picture.width * picture.height; ++i)
 		for (int c = 0; c < 3; ++c)
 			image.data[3 * i + c] = cv::saturate_cast<unsigned char>(255 * std::pow(picture.rgb[std::size_t(3 * i + 2 - c)], 1 / 2.2));
-	cv::resize(image, image, {}, 2.5, 2.5, cv::INTER_CUBIC);
+	const double scale = 400.0 / picture.width;
+	cv::resize(image, image, {}, scale, scale, scale > 1 ? cv::INTER_CUBIC : cv::INTER_AREA);
 	std::vector<unsigned char> bytes;
 	cv::imencode(".png", image, bytes);
 	return "<img alt=\"the truth\" src=\"data:image/png;base64," + Base64(bytes) + "\">";
@@ -259,6 +260,7 @@ void WritePage(const RaceReport& report, const fs::path& out, const fs::path& wo
 		<< Summary(report, Opponent::PINHOLES, "Averaged pinhole renders from stock, tilted planes")
 		<< Summary(report, Opponent::RAW, "tilt_lens without denoise, adaptive and fixed, over tilt_lens with it")
 		<< Summary(report, Opponent::FIXED, "tilt_lens with a fixed number of samples, over all that adapts");
+	file << LeversSection(report) << SizesSection(report, out);
 	file << "<h3>How it is measured</h3>\n<ul>\n"
 		"<li>RMS error over pixels and channels, linear light, 16 bits, clipped at 1. relMSE is mean((x &minus; t)&sup2; / (t&sup2; + 0.01)).</li>\n"
 		"<li>Each stock picture is judged by the smallest of three errors: against the truth; against the truth moved by the part of a pixel that suits it best; "
@@ -269,10 +271,12 @@ void WritePage(const RaceReport& report, const fs::path& out, const fs::path& wo
 		"<li>Curves are the lower left of all settings, convex in logarithms. &gt;: the opponent never got there, its last slope, or that of plain averaging "
 		"if steeper, is taken on; &lt;: the same for ours, with the flatter slope; ~: both.</li>\n"
 		"<li>Truths are the mean of independent sets of tilt_lens's fixed samples, and are checked against averaged pinholes of stock, which share no code with them.</li>\n"
+		<< (report.settings.judged_width < report.settings.width ? fmt::format("<li>Times are those of whole pictures, errors those of the {} x {} pixels in the middle.</li>\n",
+			report.settings.judged_width, report.settings.judged_height) : "")
 		<< (report.reused_stock ? "<li><b>Stock's times come from an earlier race</b>: not interleaved.</li>\n" : "") << "</ul>\n";
 	for (const Contest& contest : report.contests)
 		file << Section(contest, report, work);
-	for (const char* name : {"tiltcost.html", "cost-of-nothing.html", "calibrator-cost.html", "calibrator-ablation.html"})
+	for (const char* name : {"tiltcost.html", "gallery-seconds.html", "cost-of-nothing.html", "calibrator-cost.html", "calibrator-ablation.html"})
 	{
 		std::ifstream fragment(out / name);
 		if (fragment)

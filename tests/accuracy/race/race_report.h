@@ -21,7 +21,7 @@ struct RaceReport
 void WriteTables(const RaceReport& report, const std::filesystem::path& out);
 
 // report.html, self-contained; `work` receives what is made on the way. Fragments that lie in `out` are taken in:
-// calibrator-cost.html, tiltcost.html, cost-of-nothing.html.
+// calibrator-cost.html, tiltcost.html, cost-of-nothing.html, gallery-seconds.html.
 void WritePage(const RaceReport& report, const std::filesystem::path& out, const std::filesystem::path& work);
 
 // The SVG of a contest's curves: RMS error, or the root of relMSE.
@@ -29,6 +29,22 @@ std::string PlotOf(const Contest& contest, bool rel_mse, const std::filesystem::
 
 // Geometric mean of ratios against a rival over contests and errors; 0 without any.
 double GeometricMean(const RaceReport& report, Opponent rival, Side side);
+
+// Time without a lever of ours over time with it, at equal error: geometric means over the contests that have both.
+struct Lever
+{
+	std::string title;
+	int contests = 0;
+	std::vector<double> at; // each of the settings' errors
+	double mean = 0, least = 0, most = 0;
+	std::string least_in, most_in; // titles of contests
+};
+std::vector<Lever> Levers(const RaceReport& report);
+
+// Parts of the page: what each lever is worth alone; ratios by the size of the picture, from this race and from the tables that races with
+// --size left in folders of `out`. Empty where nothing was raced.
+std::string LeversSection(const RaceReport& report);
+std::string SizesSection(const RaceReport& report, const std::filesystem::path& out);
 
 // Lines for a terminal: every contest's ratios at every error, without denoise and at the best.
 std::string RatiosInWords(const RaceReport& report);

@@ -24,6 +24,8 @@ std::string Label(const Setting& setting)
 		label += " bokeh";
 	if (setting.denoise)
 		label += " denoise";
+	if (setting.grid)
+		label += " area_light_grid";
 	return label;
 }
 
@@ -35,6 +37,7 @@ const char* Name(Opponent opponent)
 		case Opponent::OURS: return "ours";
 		case Opponent::RAW: return "ours-raw";
 		case Opponent::FIXED: return "ours-fixed";
+		case Opponent::GRID: return "ours-grid";
 		case Opponent::PINHOLES: return "pinholes";
 	}
 	return "";
@@ -56,14 +59,16 @@ std::vector<RaceScene> ReadScenes(const fs::path& folder)
 			if (line.compare(0, head.size(), head) == 0)
 				value = line.substr(head.size());
 		};
-		std::string tilted;
+		std::string tilted, area_lights;
 		while (std::getline(file, line) && line.compare(0, 2, "//") == 0)
 		{
 			tail("// Title: ", scene.title);
 			tail("// Shows: ", scene.shows);
 			tail("// Tilted: ", tilted);
+			tail("// Area lights: ", area_lights);
 		}
 		scene.tilted = tilted == "yes";
+		scene.area_lights = area_lights == "yes";
 		if (scene.title.empty())
 			throw std::runtime_error(scene.file.string() + " has no line \"// Title: ...\" at its top");
 		scenes.push_back(scene);
@@ -98,6 +103,7 @@ static std::vector<Setting> Settings(const json& list, Opponent opponent)
 						setting.confidence = confidence;
 						setting.bokeh = object.value("bokeh", false);
 						setting.denoise = opponent == Opponent::OURS;
+						setting.grid = opponent == Opponent::GRID;
 						if (setting.max < 1 || setting.min > setting.max)
 							throw std::runtime_error("blur_samples " + Label(setting) + " of " + Name(opponent) + " makes no sense");
 						settings.push_back(setting);
@@ -118,6 +124,11 @@ try
 	RaceSettings settings;
 	settings.width = j.at("width");
 	settings.height = j.at("height");
+	const std::vector<int> judged = j.value("judged", std::vector<int>{settings.width, settings.height});
+	if (judged.size() != 2 || judged[0] < 1 || judged[1] < 1 || judged[0] > settings.width || judged[1] > settings.height)
+		throw std::runtime_error("\"judged\" is not the size of a part of the picture");
+	settings.judged_width = judged[0];
+	settings.judged_height = judged[1];
 	settings.repeats = j.at("repeats");
 	settings.longest_run = j.at("longest_run");
 	settings.enough = j.at("enough");
@@ -133,6 +144,9 @@ try
 	settings.ours = Settings(j.at("ours"), Opponent::OURS);
 	settings.raw = Settings(j.at("raw"), Opponent::RAW);
 	settings.fixed = Settings(j.at("fixed"), Opponent::FIXED);
+	settings.grid = Settings(j.value("grid", json::array()), Opponent::GRID);
+	if (settings.pinhole_frames + settings.check_frames > 0 && (settings.judged_width < settings.width || settings.judged_height < settings.height))
+		throw std::runtime_error("pinholes are judged as whole pictures");
 	if (settings.reference_seeds < 2 || settings.errors.empty())
 		throw std::runtime_error("at least two reference_seeds and one of errors are needed");
 	return settings;

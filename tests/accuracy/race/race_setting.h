@@ -12,6 +12,7 @@ enum class Opponent
 	OURS, // tilt_lens, denoised
 	RAW, // tilt_lens, not denoised
 	FIXED, // tilt_lens, every pixel the same number of samples
+	GRID, // the same, with stock's grids of points on area lights
 	PINHOLES // the mean of stock pinhole frames
 };
 
@@ -21,7 +22,7 @@ struct Setting
 	int min = 0, max = 37; // blur_samples; min 0: a maximum alone. Pinholes: max frames
 	double variance = 0, confidence = 0.9;
 	bool bokeh = false; // stock with a round bokeh pigment
-	bool denoise = false; // tilt_lens
+	bool denoise = false, grid = false; // tilt_lens
 	bool tilted = false;
 	int seed = 0; // another set of samples
 };
@@ -35,6 +36,7 @@ struct RaceScene
 	std::string name; // of the file
 	std::string title, shows;
 	bool tilted = false; // can be raced tilted too
+	bool area_lights = false; // has some
 	std::filesystem::path file;
 };
 
@@ -44,6 +46,7 @@ std::vector<RaceScene> ReadScenes(const std::filesystem::path& folder);
 struct RaceSettings
 {
 	int width = 0, height = 0;
+	int judged_width = 0, judged_height = 0; // of the part in the middle where errors are taken
 	int repeats = 0;
 	double longest_run = 0; // CPU seconds; settings that would need more are left out
 	double enough = 0; // an opponent's ladder of fixed N ends below this error
@@ -53,8 +56,8 @@ struct RaceSettings
 	int pinhole_frames = 0, check_frames = 0; // 0: no tilted contests, truths are not checked
 	std::vector<double> errors; // at which times are compared
 	std::vector<double> rel_mse;
-	std::vector<Setting> stock, ours, raw, fixed;
+	std::vector<Setting> stock, ours, raw, fixed, grid;
 };
 
-// `mode` is "full", "quick" or "bench". Throws std::exception that names what is wrong.
+// `mode` is "full", "quick", "bench" or a size, "640x360" or "1920x1080". Throws std::exception that names what is wrong.
 RaceSettings ReadSettings(const std::filesystem::path& file, const std::string& mode);

@@ -4,6 +4,8 @@
 
 #include "race_report.h"
 
+#include "program/temporary_folder.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -74,6 +76,57 @@ TEST(RaceRatios, MeansAreOfASide)
 	EXPECT_NE(WhereWeLose(report, Side::RAW), WhereWeLose(report, Side::BEST));
 }
 
+TEST(RaceRatios, ALeverIsWorthWhatItSavesAlone)
+{
+	RaceReport report;
+	report.settings.errors = {0.01, 0.005};
+	Contest shed = Made(2, 4, 6), lamp = Made(3, 3, 6);
+	shed.scene.title = "Shed";
+	lamp.scene.title = "Lamp";
+	lamp.points[Opponent::GRID] = Points(30);
+	for (Contest* contest : {&shed, &lamp})
+		for (auto& [opponent, points] : contest->points)
+			for (RacePoint& point : points)
+			{
+				point.setting.opponent = opponent;
+				point.setting.variance = opponent == Opponent::RAW ? 1e-3 : 0;
+				point.setting.denoise = opponent == Opponent::OURS;
+				point.setting.grid = opponent == Opponent::GRID;
+			}
+	report.contests = {shed, lamp};
+	const std::vector<Lever> levers = Levers(report);
+	ASSERT_EQ(levers.size(), 5u);
+	EXPECT_NEAR(levers[0].mean, 2, 1e-9);                  // 12 / 6
+	EXPECT_NEAR(levers[1].mean, 5, 1e-9);                  // 30 / 6
+	EXPECT_EQ(levers[1].contests, 1);
+	EXPECT_NEAR(levers[2].mean, std::sqrt(1.5 * 2), 1e-9); // 6 / 4, 6 / 3
+	EXPECT_EQ(levers[2].least_in, "Shed");
+	EXPECT_NEAR(levers[3].mean, std::sqrt(3.0 * 2), 1e-9);  // 6 / 2, 6 / 3
+	EXPECT_NEAR(levers[3].at[1], std::sqrt(3.0 * 2), 1e-9);
+	EXPECT_EQ(levers[3].most_in, "Shed");
+	EXPECT_NEAR(levers[4].mean, levers[3].mean, 1e-9);      // both at their quickest
+}
+
+TEST(RaceRatios, SizesStandBesideThisRaces)
+{
+	const tiltcal::TemporaryFolder folder{"tiltcal-race"};
+	const std::filesystem::path size = folder.File("640x360"), out = size.parent_path();
+	RaceReport report;
+	report.settings.errors = {0.01};
+	report.settings.width = 160;
+	report.settings.height = 120;
+	report.contests = {Made(2, 4, 6)};
+	report.contests[0].scene.name = "shed";
+	EXPECT_EQ(SizesSection(report, out), "");
+	std::filesystem::create_directory(size);
+	RaceReport large = report;
+	large.contests = {Made(1, 3, 6)};
+	large.contests[0].scene.name = "shed";
+	WriteTables(large, size);
+	const std::string text = SizesSection(report, out);
+	EXPECT_NE(text.find("<td>shed</td><td>3.00 / 6.00</td><td>4.00 / 12.00</td>"), std::string::npos) << text;
+}
+
 TEST(RaceRatios, LinesForATerminalHaveBothSidesOfEveryContest)
 {
 	RaceReport report;
@@ -96,6 +149,20 @@ TEST(RaceSettings, BenchHasNoPinholesAndCountsTheSmallestNumbersOfSamples)
 	EXPECT_LT(5 * bench.reference_error, bench.errors.back() + 1e-12);
 	for (const auto* list : {&bench.stock, &bench.ours, &bench.raw, &bench.fixed})
 		EXPECT_FALSE(list->empty());
+}
+
+// Judged in the middle only where nothing else asks for the whole picture.
+TEST(RaceSettings, SizesAreThoseOfTheirNames)
+{
+	const RaceSettings half = ReadSettings(RACE_SETTINGS, "640x360"), full = ReadSettings(RACE_SETTINGS, "1920x1080");
+	EXPECT_EQ(half.width, 640);
+	EXPECT_EQ(half.judged_width, 640);
+	EXPECT_EQ(half.judged_height, 360);
+	EXPECT_EQ(full.height, 1080);
+	EXPECT_LT(full.judged_width, full.width);
+	EXPECT_EQ(full.pinhole_frames, 0);
+	EXPECT_TRUE(full.grid.empty());
+	EXPECT_FALSE(ReadSettings(RACE_SETTINGS, "full").grid.empty());
 }
 
 // Two blocks of 8 x 8: 1.2 times the other picture's error in one, 1.05 times in the other.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 // Title: Area lights
+// Area lights: yes
 // Shows: a still life under a large lamp and a window; soft shadows are noise of their own
 #version 3.7;
 global_settings { assumed_gamma 1 }
