@@ -4,6 +4,7 @@
 
 #include "effects/chromatic_fit.h"
 #include <tiltcal/error.h>
+#include "calibrate/beside_real_lens.h"
 #include "calibrate/quiet.h"
 #include "calibrate/check_light.h"
 #include "calibrate/check_board.h"
@@ -305,6 +306,8 @@ Calibration Solve(const Task& measured, const CalibrateOptions& o)
 	c.verdict = Judge(c);
 	if (model != Model::PAPER && c.refined && o.next_photographs)
 		c.next = FindNextPhotographs(c);
+	// Last: what further photographs would tell, and the grade, are of what scatters.
+	WidenByRealLens(c);
 	return c;
 }
 

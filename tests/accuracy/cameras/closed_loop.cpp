@@ -35,12 +35,18 @@ void AddTilt(const Calibration& c, size_t s, const std::pair<double, double>& tr
 	a.tilt_error = std::max(a.tilt_error, (found - truth.first * along).norm());
 }
 
+/// The prescription, scaled to the focal length and stopped to the f-number.
+tiltcal::Prescription GlassOf(const Camera& camera)
+{
+	const tiltcal::Prescription printed = tiltcal::ReadPrescription(camera.glass);
+	return tiltcal::StoppedTo(printed.Scaled(camera.focal_length / tiltcal::ParaxialOf(printed).focal_length), camera.f_number);
+}
+
 /// What a pattern is behind the glass, where the thin lens's scene stands.
 synthetic::TracedScene ThroughGlass(const Camera& camera, size_t state, const synthetic::Scene& scene)
 {
 	synthetic::TracedScene traced;
-	const tiltcal::Prescription printed = tiltcal::ReadPrescription(camera.glass);
-	traced.glass = tiltcal::StoppedTo(printed.Scaled(camera.focal_length / tiltcal::ParaxialOf(printed).focal_length), camera.f_number);
+	traced.glass = GlassOf(camera);
 	traced.sensor = { camera.width, camera.height, camera.pitch };
 	if (state > 0)
 		std::tie(traced.state.tilt_deg, traced.state.direction_deg) = camera.tilts[state - 1];
@@ -52,9 +58,15 @@ synthetic::TracedScene ThroughGlass(const Camera& camera, size_t state, const sy
 	return traced;
 }
 
-/// Of real glass the tilts are what can be told; d is that of the pupil near the axis.
+/// Of real glass the tilts are what can be told, and what it does near its axis: f, w by which it projects from the entrance pupil (the exit
+/// pupil's distance over the pupil magnification), and d of the pupil.
 void CompareThroughGlass(const Camera& camera, const Calibration& c, Answer& a)
 {
+	const tiltcal::Prescription glass = GlassOf(camera);
+	const tiltcal::Paraxial p = tiltcal::ParaxialOf(glass);
+	const double back = tiltcal::FocusedBackDistance(glass, p, camera.focus_distance);
+	a.deviations.push_back(Of("w", (p.exit_pupil - p.last_vertex + back) / p.pupil_magnification, c.solution.w_mm));
+	a.deviations.push_back(Of("f", camera.focal_length, c.solution.focal_length));
 	a.deviations.push_back(Of("d", camera.Aperture(), c.solution.aperture_diameter));
 	for (size_t s = 1; s < c.solution.states.size(); ++s)
 		AddTilt(c, s, camera.tilts[s - 1], a);

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// What a thin lens's numbers are worth where a real lens is seen.
+
+#ifndef TILTCAL_BESIDE_REAL_LENS_H
+#define TILTCAL_BESIDE_REAL_LENS_H
+
+#include <tiltcal/calibration.h>
+
+namespace tiltcal
+{
+
+/// Where a real lens is the answer, the thin lens that is told beside it predicts photographs left out worse: its w, f, U and d are those of a
+/// model that is known to be wrong, however little they scatter. Their sigmas are widened by how far the real lenses found put the same
+/// number elsewhere, the farther one's distance in quadrature: f and d those of the glass, w the distance of the exit pupil over the pupil
+/// magnification, U that of the thin lens that stands for it near its axis. `covariance` and `sigma_by_photographs` stay what scatters.
+void WidenByRealLens(Calibration& c);
+
+}
+
+#endif
