@@ -214,7 +214,7 @@ struct TilePixel
 	PixelSampler sampler;
 	SampleSums sums;
 	int x, y;
-	/// Index of the level that it is to reach; at first, at which it had converged by itself.
+	/// Index of the level that it has reached, or is to reach at least.
 	size_t level;
 	/// Variance per sample of the pixels around, where that was asked; else 0.
 	double neighbourhood_variance;

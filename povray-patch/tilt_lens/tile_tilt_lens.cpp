@@ -22,17 +22,16 @@ using tilt_lens::RareLight;
 using tilt_lens::SampleLevel;
 using tilt_lens::TilePixel;
 
-/// Samples a pixel until its own mean is as certain as the scene asks, or until
+/// Samples a pixel, from its level on, until its own mean is as certain as the scene asks, or until
 /// blur_samples are spent.
 void TracePixel::ConvergeTiltLensPixel(TilePixel& pixel, DBL width, DBL height)
 {
 	const vector<SampleLevel>& levels = camera.Tilt_Lens.levels;
 
-	for(pixel.level = 0; ; pixel.level++)
+	for(; ; pixel.level++)
 	{
-		const SampleLevel& level = levels[pixel.level];
-		SampleTiltLensPixel(pixel, level.samples, width, height);
-		if((pixel.level + 1 == levels.size()) || (pixel.sums.Variance() < level.stop_below * level.samples))
+		SampleTiltLensPixel(pixel, levels[pixel.level].samples, width, height);
+		if((pixel.level + 1 == levels.size()) || StopsAt(levels[pixel.level], pixel.sums.Variance()))
 			break;
 	}
 	cooperate();
@@ -69,8 +68,7 @@ void TracePixel::TraceTiltLensTile(int left, int top, int right, int bottom, int
 
 	for(vector<TilePixel>::iterator pixel = tile.begin(); pixel != tile.end(); pixel++)
 	{
-		SampleTiltLensPixel(*pixel, lens.levels[pixel->level].samples, width, height);
-		cooperate();
+		ConvergeTiltLensPixel(*pixel, width, height);
 		if((pixel->x >= left) && (pixel->x <= right) && (pixel->y >= top) && (pixel->y <= bottom))
 		{
 			colours.push_back(pixel->sums.Mean());
@@ -112,7 +110,7 @@ bool TracePixel::GiveDenoisedTile(int left, int top, int right, int bottom, vect
 }
 
 /// Samples the pixels of a tile as far as they need it by themselves, and the
-/// neighbours beyond its edges too, and sets the level that each is to reach.
+/// neighbours beyond its edges too, and sets the level that each is to reach at least.
 /// Neighbours within the picture count wherever the tile ends, so that the picture
 /// does not depend on tiles, strips or threads.
 void TracePixel::ConvergeTiltLensTile(vector<TilePixel>& tile, int left, int top, int right, int bottom, int width, int height)
@@ -163,7 +161,7 @@ void TracePixel::ConvergeTiltLensTile(vector<TilePixel>& tile, int left, int top
 	for(vector<TilePixel>::iterator pixel = tile.begin(); pixel != tile.end(); pixel++)
 	{
 		pixel->neighbourhood_variance = NeighbourhoodVariance(map, pixel->x, pixel->y, 0, 0, width - 1, height - 1);
-		pixel->level = NeighbourhoodLevel(lens.levels, pixel->level, pixel->neighbourhood_variance, camera.Variance);
+		pixel->level = NeighbourhoodLevel(lens.levels, pixel->level, MostUncertainAround(map, pixel->x, pixel->y, 0, 0, width - 1, height - 1));
 	}
 }
 

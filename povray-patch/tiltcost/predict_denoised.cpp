@@ -58,7 +58,7 @@ double Pilot::PredictDenoised(const Setting& setting) const
 	for (const Block& block : blocks)
 	{
 		std::vector<size_t> known;
-		for (const size_t level : LevelsOf(block, levels, setting.variance))
+		for (const size_t level : LevelsOf(block, levels))
 			known.push_back(Known(levels[level].samples));
 		sum += DenoisedError(block, known);
 		for (int i = 0; i < block.width * block.height; ++i)

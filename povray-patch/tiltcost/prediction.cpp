@@ -111,7 +111,7 @@ bool Pilot::IsInside(const Block& block, int x, int y, int reach)
 }
 
 /// The level that each pixel of a block goes on to, as if the block were the picture.
-std::vector<size_t> Pilot::LevelsOf(const Block& block, const std::vector<SampleLevel>& levels, double variance) const
+std::vector<size_t> Pilot::LevelsOf(const Block& block, const std::vector<SampleLevel>& levels) const
 {
 	std::vector<size_t> chosen(block.pixels.size(), 0);
 	if (levels.size() == 1)
@@ -120,21 +120,25 @@ std::vector<size_t> Pilot::LevelsOf(const Block& block, const std::vector<Sample
 	std::vector<size_t> known;
 	for (const SampleLevel& level : levels)
 		known.push_back(Known(level.samples));
+	const auto Converge = [&](size_t i)
+	{
+		size_t& l = chosen[i];
+		while (l + 1 < levels.size() && !StopsAt(levels[l], block.pixels[i].levels[known[l]].variance))
+			++l;
+	};
 	std::vector<tilt_lens::Uncertainty> uncertainty;
 	for (size_t i = 0; i < block.pixels.size(); ++i)
 	{
-		const auto& at = block.pixels[i].levels;
-		size_t& l = chosen[i];
-		while (l + 1 < levels.size() && !(at[known[l]].variance < levels[l].stop_below * levels[l].samples))
-			++l;
-		uncertainty.push_back(at[known[l]].uncertainty);
+		Converge(i);
+		uncertainty.push_back(block.pixels[i].levels[known[chosen[i]]].uncertainty);
 	}
 	const tilt_lens::UncertaintyMap map = {uncertainty.data(), 0, 0, block.width};
 	for (int y = 0; y < block.height; ++y)
 		for (int x = 0; x < block.width; ++x)
 		{
-			size_t& l = chosen[size_t(y * block.width + x)];
-			l = NeighbourhoodLevel(levels, l, NeighbourhoodVariance(map, x, y, 0, 0, block.width - 1, block.height - 1), variance);
+			const size_t i = size_t(y * block.width + x);
+			chosen[i] = NeighbourhoodLevel(levels, chosen[i], MostUncertainAround(map, x, y, 0, 0, block.width - 1, block.height - 1));
+			Converge(i);
 		}
 	return chosen;
 }
@@ -162,7 +166,7 @@ std::vector<BlockCost> Pilot::BlockCosts(const Setting& setting) const
 	for (const Block& block : blocks)
 	{
 		double samples_taken = 0;
-		for (const size_t level : LevelsOf(block, levels, setting.variance))
+		for (const size_t level : LevelsOf(block, levels))
 			samples_taken += levels[level].samples;
 		costs.push_back({block.x, block.y, samples_taken / double(block.pixels.size()) * block.seconds_per_sample});
 	}
@@ -184,7 +188,7 @@ Prediction Pilot::Predict(const Setting& setting, int part, int parts) const
 		const Block& block = blocks[b];
 		if (parts > 1 && int(b) % parts == part)
 			continue;
-		const std::vector<size_t> chosen = LevelsOf(block, levels, setting.variance);
+		const std::vector<size_t> chosen = LevelsOf(block, levels);
 		double taken = 0;
 		for (size_t i = 0; i < block.pixels.size(); ++i)
 		{

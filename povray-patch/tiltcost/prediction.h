@@ -113,7 +113,7 @@ private:
 	};
 
 	static Pixel Prepare(const std::vector<tilt_lens::PilotLevel>& levels);
-	std::vector<size_t> LevelsOf(const Block& block, const std::vector<tilt_lens::SampleLevel>& levels, double variance) const;
+	std::vector<size_t> LevelsOf(const Block& block, const std::vector<tilt_lens::SampleLevel>& levels) const;
 	static bool IsInside(const Block& block, int x, int y, int reach = tilt_lens::NeighbourReach);
 	size_t Known(int count) const;
 	double DenoisedError(const Block& block, const std::vector<size_t>& known) const;

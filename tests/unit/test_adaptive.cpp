@@ -74,14 +74,43 @@ TEST(Neighbourhood, ReachesTwoPixels)
 	EXPECT_NEAR(at(0, 0), FromUncertainty(u[0]), 1e-12);
 }
 
-TEST(Neighbourhood, LevelIsTheFirstThatIsCertainEnoughAndNeverLess)
+// The eight around a pixel, and the sixteen around these; never itself, nor what is beyond the picture.
+TEST(Neighbourhood, TheMostUncertainAround)
 {
-	const auto levels = SampleLevels(0, 256, 1e-4, 0.9, Half);   // 16 .. 256
-	EXPECT_EQ(NeighbourhoodLevel(levels, 0, 0.0, 1e-4), 0u);
-	EXPECT_EQ(NeighbourhoodLevel(levels, 2, 0.0, 1e-4), 2u);
-	EXPECT_EQ(NeighbourhoodLevel(levels, 0, 0.0031, 1e-4), 1u) << "31 samples' worth: 32";
-	EXPECT_EQ(NeighbourhoodLevel(levels, 0, 1.0, 1e-4), levels.size() - 1);
-	EXPECT_EQ(NeighbourhoodLevel(levels, 0, HUGE_VAL, 1e-4), levels.size() - 1);
+	std::vector<Uncertainty> u(11 * 11, 3);
+	u[5 * 11 + 5] = 90;
+	const UncertaintyMap map = { u.data(), 0, 0, 11 };
+	const auto at = [&](int x, int y) { return MostUncertainAround(map, x, y, 0, 0, 10, 10); };
+	EXPECT_EQ(at(5, 5).near, 3);
+	EXPECT_EQ(at(5, 5).far, 3);
+	EXPECT_EQ(at(4, 6).near, 90);
+	EXPECT_EQ(at(4, 6).far, 3);
+	EXPECT_EQ(at(7, 4).near, 3);
+	EXPECT_EQ(at(7, 4).far, 90);
+	EXPECT_EQ(at(8, 5).far, 3);
+	EXPECT_EQ(MostUncertainAround(map, 5, 5, 5, 5, 5, 5).near, 0) << "a picture of one pixel";
+}
+
+TEST(Neighbourhood, APixelIsSampledHalfAsOftenAsItsNeighbourWantsAndNeverLessThanByItself)
+{
+	const auto levels = SampleLevels(0, 256, 1e-4, 0.9, Half);   // 16 .. 256, where 1/2 of 1e-4 is the bound
+	ASSERT_EQ(levels.size(), 5u);
+	EXPECT_EQ(LevelFor(levels, 0.0), 0u);
+	EXPECT_EQ(LevelFor(levels, 0.00079), 0u) << "of 16 samples the mean has 0.49e-4";
+	EXPECT_EQ(LevelFor(levels, 0.00081), 1u);
+	EXPECT_EQ(LevelFor(levels, 1.0), 4u);
+	EXPECT_EQ(LevelFor(levels, HUGE_VAL), 4u);
+	const auto wants = [](double variance) { return ToUncertainty(variance); };
+	const auto level = [&](size_t own, Uncertainty near, Uncertainty far) { return NeighbourhoodLevel(levels, own, MostAround{ near, far }); };
+	EXPECT_EQ(level(0, 0, 0), 0u);
+	EXPECT_EQ(level(2, 0, 0), 2u);
+	EXPECT_EQ(level(0, wants(1.0), 0), 3u) << "128 of 256";
+	EXPECT_EQ(level(0, 0, wants(1.0)), 1u) << "32 of 256";
+	EXPECT_EQ(level(4, wants(1.0), wants(1.0)), 4u);
+	EXPECT_EQ(level(0, wants(0.001), 0), 0u) << "the neighbour stops at 32";
+	// blur_samples 16, 100: the last level is no power of two.
+	const auto odd = SampleLevels(16, 100, 1e-4, 0.9, Half);
+	EXPECT_EQ(NeighbourhoodLevel(odd, 0, MostAround{ wants(1.0), 0 }), 2u) << "50 of 100: 64";
 }
 
 // v(n) = c n^-a: the squared changes are c n^-a (2^a - 1) 2^(aj).
