@@ -9,6 +9,7 @@
 
 #include "program/process.h"
 #include "support/picture.h"
+#include "support/tiltcost_table.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -47,13 +48,9 @@ const Effort Full = {1920, 1080, 64, true, 120, "60s"};
 /// Three of the 80 blocks for each of the jackknife's ten groups, however busy the machine.
 const Effort Small = {160, 120, 128, false, 30, "10min"};
 
-struct Row
+struct Row : TiltcostRow
 {
-	int min = 0, max = 0;
-	double variance = 0, confidence = 0.9;
 	bool denoise = false;                  ///< whether it is rendered so
-	double error = 0, rays = 0, cpu = 0;
-	double denoised_error = 0;             ///< predicted for the same with denoise; 0: not known
 };
 
 struct Scene
@@ -188,7 +185,10 @@ Predicted RunTiltcost(const Places& places, const Scene& scene, unsigned threads
 	const fs::path csv = places.out / "prediction.csv", log = places.out / "tiltcost.log";
 	std::vector<std::string> command = {places.tiltcost, "--povray", places.povray, "--csv", csv.string(), "--pilot-time", places.effort.pilot_time,
 		"--pilot-blocks", fmt::format("{}", places.effort.pilot_blocks)};
-	for (const std::string& word : SceneWords(places, scene, Row{0, 128, 0.0001}, 0, threads))
+	Row own;
+	own.max = 128;
+	own.variance = 0.0001;
+	for (const std::string& word : SceneWords(places, scene, own, 0, threads))
 		command.push_back(word);
 	RunChecked(command, log);
 
@@ -200,22 +200,8 @@ Predicted RunTiltcost(const Places& places, const Scene& scene, unsigned threads
 		predicted.error_sigma = Said(text, "errors within ") / 100;
 		predicted.time_sigma = Said(text, "times within ") / 100;
 	}
-	std::ifstream in(csv);
-	std::string line;
-	std::getline(in, line);
-	while (std::getline(in, line))
-	{
-		const std::string rest = line.substr(line.rfind('"') + 2);
-		char kind[32];
-		Row row;
-		double levels, per_pixel, wall;
-		if (std::sscanf(rest.c_str(), "%31[^,],%lf,%lf,%lf,%lf,%lf,%lf,%d,%d,%lf,%lf,%*f,%lf", kind, &row.error, &levels, &row.rays, &per_pixel, &row.cpu, &wall,
-			&row.min, &row.max, &row.variance, &row.confidence, &row.denoised_error) != 12)
-			throw std::runtime_error("tiltcost wrote " + line);
-		predicted.rows.push_back(row);
-	}
-	if (predicted.rows.empty())
-		throw std::runtime_error("tiltcost wrote no rows into " + csv.string());
+	for (const TiltcostRow& row : ReadTiltcostTable(csv))
+		predicted.rows.push_back({row, false});
 	return predicted;
 }
 
@@ -234,7 +220,8 @@ struct Truth
 Truth RenderTruth(const Places& places, const Scene& scene)
 {
 	const unsigned threads = AllThreads();
-	const Row fixed = {0, places.effort.truth_samples, 0};
+	Row fixed;
+	fixed.max = places.effort.truth_samples;
 	Truth truth = {Render(places, scene, fixed, 1, threads).picture, Render(places, scene, fixed, 2, threads).picture};
 	for (size_t i = 0; i < truth.mean.rgb.size(); ++i)
 	{

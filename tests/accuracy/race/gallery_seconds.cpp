@@ -9,6 +9,7 @@
 
 #include "race_curve.h"
 #include "support/run_measured.h"
+#include "support/tiltcost_table.h"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -105,19 +106,11 @@ Seconds Ask(const std::string& tiltcost, const std::string& povray, const fs::pa
 		return seconds;
 	}
 	std::vector<CurvePoint> raw, denoised;
-	std::ifstream in(csv);
-	std::string line;
-	std::getline(in, line);
-	while (std::getline(in, line))
+	for (const TiltcostRow& row : ReadTiltcostTable(csv))
 	{
-		const std::string rest = line.substr(line.rfind('"') + 2);
-		char kind[32];
-		double error, cpu, with, denoise;
-		if (std::sscanf(rest.c_str(), "%31[^,],%lf,%*f,%*f,%*f,%lf,%*f,%*d,%*d,%*f,%*f,%*f,%lf,%lf", kind, &error, &cpu, &with, &denoise) != 5)
-			throw std::runtime_error("tiltcost wrote " + line);
-		raw.push_back({cpu, error});
-		if (with > 0)
-			denoised.push_back({cpu + denoise, with});
+		raw.push_back({row.cpu, row.error});
+		if (row.denoised_error > 0)
+			denoised.push_back({row.cpu + row.denoise_cpu, row.denoised_error});
 	}
 	denoised.insert(denoised.end(), raw.begin(), raw.end()); // where it is not quicker it is left out
 	for (const double error : Errors)
