@@ -7,6 +7,7 @@
 // The commands are the lines of scenes/*/README.md that start with "    build/release/bin/povray scenes/" and write a picture there;
 // what they would take is tiltcost's prediction. Writes gallery-seconds.html, a fragment for the report.
 
+#include "base/plain_text.h"
 #include "race_curve.h"
 #include "support/run_measured.h"
 #include "support/tiltcost_table.h"
@@ -138,7 +139,7 @@ void Write(const fs::path& file, const std::vector<std::pair<Shot, Seconds>>& ro
 		html += "<tr><td>" + shot.picture + "</td>";
 		for (std::size_t i = 0; i < seconds.raw.size(); ++i)
 			html += Cell(seconds.raw[i]) + Cell(seconds.denoised[i]);
-		html += seconds.why_not.empty() ? "</tr>\n" : fmt::format("<td colspan=\"{}\">{}</td></tr>\n", 2 * std::size(Errors), seconds.why_not);
+		html += seconds.why_not.empty() ? "</tr>\n" : fmt::format("<td colspan=\"{}\">{}</td></tr>\n", 2 * std::size(Errors), tiltcal::HtmlText(seconds.why_not));
 	}
 	const fs::path partial = fs::path(file) += ".partial";
 	std::ofstream(partial) << html << "</table>\n";

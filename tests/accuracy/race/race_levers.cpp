@@ -10,8 +10,8 @@
 #include <cmath>
 #include <fstream>
 #include <functional>
+#include <map>
 #include <sstream>
-#include <stdexcept>
 
 namespace fs = std::filesystem;
 
@@ -152,20 +152,7 @@ std::string LeversSection(const RaceReport& report)
 
 std::string SizesSection(const RaceReport& report, const fs::path& out)
 {
-	std::map<std::string, Means> here;
-	for (const Contest& contest : report.contests)
-		if (contest.points.find(Opponent::STOCK) != contest.points.end())
-		{
-			Means sum;
-			for (double error : report.settings.errors)
-			{
-				sum.raw += std::log(RatioAt(contest, Opponent::STOCK, error, Side::RAW).value);
-				sum.best += std::log(RatioAt(contest, Opponent::STOCK, error, Side::BEST).value);
-			}
-			const double n = double(report.settings.errors.size());
-			here[contest.Name()] = {std::exp(sum.raw / n), std::exp(sum.best / n)};
-		}
-	std::vector<std::pair<std::string, std::map<std::string, Means>>> sizes = {{fmt::format("{} x {}", report.settings.width, report.settings.height), here}};
+	std::vector<std::pair<std::string, std::map<std::string, Means>>> sizes = {{fmt::format("{} x {}", report.settings.width, report.settings.height), MeansOf(out / "ratios.csv")}};
 	for (const char* size : {"640x360", "1920x1080"})
 	{
 		const auto means = MeansOf(out / size / "ratios.csv");

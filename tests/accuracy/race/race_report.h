@@ -41,8 +41,8 @@ struct Lever
 };
 std::vector<Lever> Levers(const RaceReport& report);
 
-// Parts of the page: what each lever is worth alone; ratios by the size of the picture, from this race and from the tables that races with
-// --size left in folders of `out`. Empty where nothing was raced.
+// Parts of the page: what each lever is worth alone; ratios by the size of the picture, from the tables that this race wrote into `out` and
+// that races with --size left in folders of it. Empty where nothing was raced.
 std::string LeversSection(const RaceReport& report);
 std::string SizesSection(const RaceReport& report, const std::filesystem::path& out);
 

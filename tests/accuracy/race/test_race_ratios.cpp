@@ -119,6 +119,7 @@ TEST(RaceRatios, SizesStandBesideThisRaces)
 	report.contests[0].scene.name = "shed";
 	EXPECT_EQ(SizesSection(report, out), "");
 	std::filesystem::create_directory(size);
+	WriteTables(report, out);
 	RaceReport large = report;
 	large.contests = {Made(1, 3, 6)};
 	large.contests[0].scene.name = "shed";
