@@ -78,12 +78,13 @@ struct Seconds
 // What the program said that it minds, or its last words.
 std::string Complaint(const fs::path& file)
 {
+	const std::string error = "tiltcost: error: ";
 	std::ifstream in(file);
 	std::string said;
 	for (std::string line; std::getline(in, line);)
 	{
-		if (line.compare(0, 10, "tiltcost: ") == 0)
-			return line;
+		if (line.compare(0, error.size(), error) == 0)
+			return line.substr(error.size());
 		if (line.find_first_not_of(" \t\r") != std::string::npos)
 			said = line;
 	}
