@@ -17,6 +17,8 @@ if(TILT_LENS_SANITIZE)
 	set(TILT_LENS_SANITIZER_FLAGS -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
 	add_compile_options(${TILT_LENS_SANITIZER_FLAGS})
 	add_link_options(${TILT_LENS_SANITIZER_FLAGS})
+	# Eigen allocates in a way of its own under the sanitizer; Ceres is compiled without it, and frees what its templates, merged with ours, allocated.
+	add_compile_definitions(EIGEN_MALLOC_ALREADY_ALIGNED=1)
 endif()
 
 # Coverage for libFuzzer (tests/fuzz/coverage.sh), which only clang has.

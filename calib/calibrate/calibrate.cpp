@@ -5,6 +5,7 @@
 #include "effects/chromatic_fit.h"
 #include <tiltcal/error.h>
 #include "calibrate/beside_real_lens.h"
+#include "calibrate/between_parts.h"
 #include "calibrate/quiet.h"
 #include "calibrate/check_light.h"
 #include "calibrate/check_board.h"
@@ -247,6 +248,24 @@ void AddBoardSize(Calibration& c)
 		}
 }
 
+/// Sigmas of a thin lens whose photographs misfit by more than noise.
+void WidenWhereGlassShows(const CalibrateOptions& o, Calibration& c)
+{
+	if (c.solution.model == Model::PAPER || !c.refined || o.refinement == Refinement::NONE || c.RealLensIsUsed() || !AberrationsAreLeftOver(c))
+		return;
+	o.log.Info("solving parts of the edges: how far they put the lens apart");
+	const Solution whole = c.solution;
+	const std::vector<PartAnswer> parts = SolveParts(c);
+	const auto& priors = c.task.priors;
+	const bool told_f = std::any_of(priors.begin(), priors.end(), [](const Prior& p) { return p.quantity == Quantity::FOCAL_LENGTH; });
+	for (Solution* told : { &c.solution, &c.render })
+	{
+		WidenByParts(whole, parts, *told);
+		if (!told_f)
+			WidenByPupils(*told);
+	}
+}
+
 Calibration Solve(const Task& measured, const CalibrateOptions& o)
 {
 	const Log& log = o.log;
@@ -303,10 +322,12 @@ Calibration Solve(const Task& measured, const CalibrateOptions& o)
 		FindRealLens(o, c);
 		c.light = CheckLight(c);
 	}
-	c.verdict = Judge(c);
+	// Of what scatters: further photographs do not change what the model leaves out.
 	if (model != Model::PAPER && c.refined && o.next_photographs)
 		c.next = FindNextPhotographs(c);
-	// Last: what further photographs would tell, and the grade, are of what scatters.
+	WidenWhereGlassShows(o, c);
+	c.verdict = Judge(c);
+	// Last: the tilts, by which such a lens is graded, are the real lens's.
 	WidenByRealLens(c);
 	return c;
 }

@@ -11,6 +11,9 @@ namespace tiltcal
 /// stands m w before the sensor.
 inline double PowerOfThinLens(double m, double power, double normal_z, double w_mm) { return m * power - (m - 1) * normal_z / w_mm; }
 
+/// The other way round: f, mm, of a real lens of the pupil magnification m that does near its axis what a thin one of `thin_power` does.
+inline double FocalLengthOfReal(double m, double thin_power, double normal_z, double w_mm) { return m / (thin_power + (m - 1) * normal_z / w_mm); }
+
 /// Along the sensor's normal to the plane of focus of a thin lens of that power, mm; infinite or negative: at infinity, beyond.
 inline double FocusOfThinLens(double power, double normal_z, double w_mm) { return 1 / (power * normal_z - 1 / w_mm); }
 

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+
+#include "calibrate/between_parts.h"
+
+#include "base/robust.h"
+#include "lens/optics.h"
+#include "model/thin_lens_of_real.h"
+#include "model/tilt_angles.h"
+#include "solve/solve_joint.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tiltcal
+{
+
+namespace
+{
+
+/// One standard deviation of a pupil magnification that is not known.
+const double PUPIL_MAGNIFICATION_SIGMA = 0.3;
+const double DEGREES = 180 / M_PI;   // in a radian
+
+/// Of the edges of each photograph those whose number `of` is above its median, or those up to it.
+template<typename Number>
+Task HalfOf(const Task& task, Number of, bool above)
+{
+	Task half = task;
+	for (State& state : half.states)
+		for (Photo& photo : state.photos)
+		{
+			std::vector<double> numbers;
+			for (const Edge& edge : photo.edges)
+				numbers.push_back(of(edge));
+			if (numbers.empty())
+				continue;
+			const double median = Median(numbers);
+			photo.edges.erase(std::remove_if(photo.edges.begin(), photo.edges.end(), [&](const Edge& edge) { return (of(edge) > median) != above; }), photo.edges.end());
+		}
+	return half;
+}
+
+/// A difference, and what a part scatters by itself.
+struct Distance
+{
+	double apart, scatter;
+};
+
+/// The farthest of the parts, beyond what it scatters, in quadrature to `sigma`. distance: of a part's solution from the whole.
+template<typename Of>
+void Widen(const std::vector<PartAnswer>& parts, Of distance, double& sigma)
+{
+	double farthest = 0;
+	for (const PartAnswer& part : parts)
+	{
+		const Distance d = distance(part.solution);
+		// A focus at infinity is no distance to compare.
+		if (std::isfinite(d.apart) && std::isfinite(d.scatter))
+			farthest = std::max(farthest, d.apart * d.apart - d.scatter * d.scatter);
+	}
+	sigma = std::sqrt(sigma * sigma + farthest);
+}
+
+/// Tilts by their vectors: a tilt of -1 degree towards 10 is one of 1 degree towards 190.
+void WidenTilt(const StateLens& whole, size_t state, const std::vector<PartAnswer>& parts, StateLens& told)
+{
+	const double direction = whole.tilt_direction.value, tilt = whole.lens_tilt.value;
+	const auto apart = [&](Estimate StateLens::* angle, const StateLens& part, double towards)
+	{
+		return (TiltVector((part.*angle).value, part.tilt_direction.value) - TiltVector((whole.*angle).value, direction)).dot(TiltVector(1, towards));
+	};
+	const auto widen = [&](auto distance, double& sigma) { Widen(parts, [&](const Solution& part) { return distance(part.states[state]); }, sigma); };
+	for (Estimate StateLens::* angle : { &StateLens::lens_tilt, &StateLens::focal_plane_tilt })
+		widen([&](const StateLens& part) { return Distance{ apart(angle, part, direction), (part.*angle).sigma }; }, (told.*angle).sigma);
+	if (tilt != 0)
+		widen([&](const StateLens& part) { return Distance{ apart(&StateLens::lens_tilt, part, direction + 90) / tilt * DEGREES, part.tilt_direction.sigma }; }, told.tilt_direction.sigma);
+}
+
+}
+
+std::vector<PartAnswer> SolveParts(const Calibration& c)
+{
+	const auto from_middle = [&c](const Edge& e) { return std::hypot(e.x - 0.5 * (c.task.width - 1), e.y - 0.5 * (c.task.height - 1)); };
+	const auto blur = [](const Edge& e) { return std::abs(e.blur); };
+	std::vector<PartAnswer> parts;
+	for (const bool above : { false, true })
+		for (const Task& task : { HalfOf(c.task, from_middle, above), HalfOf(c.task, blur, above) })
+		{
+			PartAnswer part{ c.geometry, c.solution };
+			if (RefineJointly(task, Refinement::EDGES, part.geometry, part.solution))
+				parts.push_back(part);
+		}
+	return parts;
+}
+
+void WidenByPupils(Solution& told)
+{
+	const double w = told.w_mm.value, m = PUPIL_MAGNIFICATION_SIGMA;
+	const auto widen = [&](double thin_power, double normal_z, Estimate& f)
+	{
+		f.sigma = std::hypot(f.sigma, 0.5 * (FocalLengthOfReal(1 + m, thin_power, normal_z, w) - FocalLengthOfReal(1 - m, thin_power, normal_z, w)));
+	};
+	widen(1 / told.focal_length.value, 1, told.focal_length);
+	for (StateLens& state : told.states)
+		widen(1 / state.focal_length.value, tilt_lens::LensFromPlane(state.q, 1 / w).normal.z, state.focal_length);
+}
+
+void WidenByParts(const Solution& whole, const std::vector<PartAnswer>& parts, Solution& told)
+{
+	const auto widen = [&](auto number)
+	{
+		Widen(parts, [&](const Solution& part) { return Distance{ number(part).value - number(whole).value, number(part).sigma }; }, number(told).sigma);
+	};
+	widen([](auto& s) -> auto& { return s.w_mm; });
+	widen([](auto& s) -> auto& { return s.focal_length; });
+	widen([](auto& s) -> auto& { return s.aperture_diameter; });
+	widen([](auto& s) -> auto& { return s.focus_distance; });
+	for (size_t k = 0; k < told.states.size(); ++k)
+	{
+		widen([k](auto& s) -> auto& { return s.states[k].focal_length; });
+		widen([k](auto& s) -> auto& { return s.states[k].focus_distance; });
+		WidenTilt(whole.states[k], k, parts, told.states[k]);
+	}
+}
+
+}

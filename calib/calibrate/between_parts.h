@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// What a thin lens's numbers are worth where its edges misfit and no real lens was found.
+
+#ifndef TILTCAL_BETWEEN_PARTS_H
+#define TILTCAL_BETWEEN_PARTS_H
+
+#include <tiltcal/calibration.h>
+
+#include <vector>
+
+namespace tiltcal
+{
+
+/// What a part of the edges says of the thin lens.
+struct PartAnswer
+{
+	Geometry geometry;
+	Solution solution;
+};
+
+/// The joint fit of `calibration` again, by edges, of the half of each photograph's edges that is nearer to the picture's middle, the half farther from
+/// it, the sharper and the more blurred half. Those that converge; calibration.solution is an exact model's, jointly refined.
+std::vector<PartAnswer> SolveParts(const Calibration& calibration);
+
+/// Where blur misfits by more than noise and no real lens is used, what the thin lens leaves out is the same in every photograph: neither
+/// residuals nor the photographs against each other scatter by it. It differs from part to part of the picture and of the blur, so w, f, U, d and tilts
+/// are put elsewhere by parts of the edges; the sigmas of `told` are widened in quadrature by the farthest part's distance, less what that part
+/// scatters itself. `covariance` and `sigma_by_photographs` stay what scatters.
+void WidenByParts(const Solution& whole, const std::vector<PartAnswer>& parts, Solution& told);
+
+/// A thin lens does near its axis what real ones of any pupil magnification do, each with an f of its own (model/thin_lens_of_real.h): the sigma of f is
+/// widened by what is not known of that. Those of photographic lenses lie between some 0.5 (telephoto) and 1.7 (wide angle, retrofocus), about 1.
+void WidenByPupils(Solution& told);
+
+}
+
+#endif
