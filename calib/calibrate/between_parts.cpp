@@ -3,6 +3,7 @@
 #include "calibrate/between_parts.h"
 
 #include "base/robust.h"
+#include "lens/angles.h"
 #include "lens/optics.h"
 #include "model/thin_lens_of_real.h"
 #include "model/tilt_angles.h"
@@ -19,7 +20,7 @@ namespace
 
 /// One standard deviation of a pupil magnification that is not known.
 const double PUPIL_MAGNIFICATION_SIGMA = 0.3;
-const double DEGREES = 180 / M_PI;   // in a radian
+const double DEGREES = tilt_lens::DegreesPerRadian;
 
 /// Of the edges of each photograph those whose number `of` is above its median, or those up to it.
 template<typename Number>
