@@ -45,7 +45,7 @@ void WidenByRealLens(Calibration& c)
 	for (Solution* told : { &c.solution, &c.render })
 	{
 		Widen(f, told->focal_length);
-		Widen(OfEach(lenses, [](const RealLens& l) { return l.aperture_diameter_mm.value; }), told->aperture_diameter);
+		Widen(OfEach(lenses, [](const RealLens& l) { return l.opening_on_axis_mm.value; }), told->aperture_diameter);
 		Widen(OfEach(lenses, [](const RealLens& l) { return l.states[0].image_distance_mm.value / l.pupil_magnification.value; }), told->w_mm);
 		Widen(focus(0), told->focus_distance);
 		for (size_t s = 0; s < told->states.size(); ++s)

@@ -18,8 +18,6 @@ namespace tiltcal
 namespace
 {
 
-/// One standard deviation of a pupil magnification that is not known.
-const double PUPIL_MAGNIFICATION_SIGMA = 0.3;
 const double DEGREES = tilt_lens::DegreesPerRadian;
 
 /// Of the edges of each photograph those whose number `of` is above its median, or those up to it.

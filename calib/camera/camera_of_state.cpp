@@ -23,8 +23,8 @@ namespace
 void AddEffects(const Calibration& c, StateCamera& camera)
 {
 	camera.natural_vignetting = Uses(c, EffectId::VIGNETTING_NATURAL);
-	for (const tilt_lens::Rim& rim : WrittenRims(c))
-		camera.rims_mm.push_back({ rim.radius, rim.distance });
+	for (const RimEstimate& rim : WrittenRims(c))
+		camera.rims_mm.push_back({ rim.radius_mm.value, rim.distance_mm.value });
 	const auto values = [](const std::array<Estimate, 2>& e) { return TwoNumbers{ e[0].value, e[1].value }; };
 	if (Uses(c, EffectId::CHROMATIC_LATERAL))
 		camera.lateral = values(c.chromatic.lateral);

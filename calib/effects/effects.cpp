@@ -276,13 +276,9 @@ const FalloffAnswer& RimOf(const Calibration& c)
 	return Uses(c, EffectId::VIGNETTING_OPTICAL) ? FalloffOf(c) : c.vignetting.answers[FalloffKind(true, true)];
 }
 
-std::vector<tilt_lens::Rim> WrittenRims(const Calibration& c)
+std::vector<RimEstimate> WrittenRims(const Calibration& c)
 {
-	std::vector<tilt_lens::Rim> rims;
-	if (Uses(c, EffectId::VIGNETTING_OPTICAL))
-		for (const RimEstimate& rim : RimOf(c).rims)
-			rims.push_back({ rim.radius_mm.value, rim.distance_mm.value });
-	return rims;
+	return Uses(c, EffectId::VIGNETTING_OPTICAL) ? RimOf(c).rims : std::vector<RimEstimate>{};
 }
 
 std::string EffectsText(const Calibration& c)

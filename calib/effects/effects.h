@@ -31,8 +31,8 @@ const FalloffAnswer& FalloffOf(const Calibration& calibration);
 /// The answer that tells the rim: FalloffOf, or where no rim is written that of both kinds of vignetting.
 const FalloffAnswer& RimOf(const Calibration& calibration);
 
-/// The rims that are written; mm.
-std::vector<tilt_lens::Rim> WrittenRims(const Calibration& calibration);
+/// The rims that are written.
+std::vector<RimEstimate> WrittenRims(const Calibration& calibration);
 
 /// One row per effect, for people: what, value, significance, held out without and with, written or not and why.
 std::string EffectsText(const Calibration& calibration);

@@ -78,6 +78,7 @@ Json RealLensJson(const Calibration& c, const RealLens& lens)
 	}
 	Put(json, "focal_length", "_mm", lens.focal_length_mm);
 	Put(json, "aperture_diameter", "_mm", lens.aperture_diameter_mm);
+	Put(json, "opening_on_axis", "_mm", lens.opening_on_axis_mm);
 	Put(json, "pupil_magnification", "", lens.pupil_magnification);
 	Put(json, "psf_floor_squared", "_px2", lens.psf_floor_squared);
 	json["f_stop_of_aberrations"] = 0.5 * lens.focal_length_mm.value / lens.radius_mm;
@@ -88,8 +89,7 @@ Json RealLensJson(const Calibration& c, const RealLens& lens)
 		json["aberrations"]["fifth_order"].push_back(lens.PerMille(k).value);
 		json["aberrations"]["fifth_order_sigma"].push_back(lens.PerMille(k).sigma);
 	}
-	if (lens.fifth_order)
-		json["rims"] = Json::array();
+	json["rims"] = Json::array();
 	for (const RimEstimate& rim : lens.rims)
 	{
 		Json one;

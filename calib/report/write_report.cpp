@@ -133,13 +133,19 @@ std::string Evidence(const Calibration& c)
 	return out;
 }
 
+std::string GlassText(const RealLens& lens)
+{
+	const bool narrowed = lens.opening_on_axis_mm.value < lens.aperture_diameter_mm.value;
+	return fmt::format("focal length {} mm, aperture {} mm{}, pupil magnification {}\n", PlusMinus(lens.focal_length_mm, 3), PlusMinus(lens.aperture_diameter_mm, 3),
+		narrowed ? fmt::format(" (of which a rim leaves {} on the axis)", PlusMinus(lens.opening_on_axis_mm, 3)) : "", PlusMinus(lens.pupil_magnification, 4));
+}
+
 std::string RealLensText(const Calibration& c)
 {
 	const RealLens& lens = *c.real_lens;
 	if (!lens.failure.empty())
 		return fmt::format("\nreal lens: no answer: {}\n", lens.failure);
-	std::string out = fmt::format("\nreal lens, one for all states: focal length {} mm, aperture {} mm, pupil magnification {}\n", PlusMinus(lens.focal_length_mm, 3),
-		PlusMinus(lens.aperture_diameter_mm, 3), PlusMinus(lens.pupil_magnification, 4));
+	std::string out = "\nreal lens, one for all states: " + GlassText(lens);
 	out += "  thousandths of the focal length:";
 	for (size_t k = 0; k < tilt_lens::ThirdOrderTerms; ++k)
 		out += fmt::format(" {} {}{}", tilt_lens::AberrationWords[k], PlusMinus(lens.PerMille(k), 3), k + 1 < tilt_lens::ThirdOrderTerms ? "," : "\n");
@@ -158,7 +164,7 @@ std::string SceneLensText(const Calibration& c)
 	std::string out = fmt::format("  sixteen numbers {} for scenes: places of edges fit to {:.3f} px, their blurs to {:.3f} px", lens.used ? "taken" : "not taken", lens.rms_place, lens.rms_blur);
 	if (lens.held_out > 0 && lens.held_out_thin > 0)
 		out += fmt::format(", photographs left out to {:.2f} of what is usual (six: {:.2f})", lens.held_out, lens.held_out_thin);
-	out += fmt::format("\n    focal length {} mm, aperture {} mm, pupil magnification {}\n", PlusMinus(lens.focal_length_mm, 3), PlusMinus(lens.aperture_diameter_mm, 3), PlusMinus(lens.pupil_magnification, 4));
+	out += "\n    " + GlassText(lens);
 	for (const RimEstimate& rim : lens.rims)
 		out += fmt::format("    rim: radius {} mm, {} mm {}\n", PlusMinus(rim.radius_mm, 2), PlusMinus({ std::abs(rim.distance_mm.value), rim.distance_mm.sigma }, 2),
 			rim.distance_mm.value > 0 ? "before the entrance pupil" : "behind the exit pupil");

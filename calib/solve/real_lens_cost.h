@@ -31,7 +31,8 @@ namespace real_lens
 enum State { NX, NY, W, CX, CY, STATE_SIZE };
 /// Of the lens: its power in units of 1/px of image distance (power times pitch), m, radius of the opening as the entrance pupil's in units of r, floor^2 in px^2.
 enum Lens { POWER, MAGNIFICATION, OPENING, FLOOR_SQUARED, LENS_SIZE };
-/// Of each rim in turn: logarithms of its radius and of its distance, mm.
+/// Of each rim in turn: logarithms of its radius and of its distance, in radii of the opening. So a larger opening keeps the shape that they leave of it, which is
+/// what light tells; else a rim that the axis's rays meet holds an opening back that the blur wants larger.
 enum Rims { LOG_RADIUS, LOG_DISTANCE, RIM_SIZE };
 const int MOST_RIMS = 2, RIMS_SIZE = MOST_RIMS * RIM_SIZE;
 

@@ -5,6 +5,7 @@
 #include "base/robust.h"
 #include "edge/soft_radius.h"
 #include "model/footprint.h"
+#include "model/thin_lens_of_real.h"
 #include "solve/block_covariance.h"
 #include "solve/by_photographs.h"
 #include "solve/each_edge.h"
@@ -104,9 +105,7 @@ RealLensEdge EdgeOf(const RealLensFit& fit, const Edge& e, const RealLensNumbers
 		for (size_t k = 0; k < RIM_SIZE * x.sides.size(); ++k)
 		{
 			const double change = 0.02;   // of the logarithms of a radius and a distance
-			RealLensNumbers more, less;
-			more.sides = less.sides = x.sides;
-			more.rims = less.rims = x.rims;
+			RealLensNumbers more = x, less = x;
 			more.rims[k] += change;
 			less.rims[k] -= change;
 			const std::array<double, 2> above = seen(more), below = seen(less);
@@ -155,6 +154,8 @@ void AddWhatIsLikely(const RealLensFit& fit, RealLensNumbers& x, ceres::Problem&
 	for (int k = 0; k < tilt_lens::AberrationTerms; ++k)
 		if (x.free[size_t(k)] && fit.likely_c[size_t(k)] > 0)
 			AddLikely<tilt_lens::AberrationTerms>(x.c.data(), k, 0, fit.likely_c[size_t(k)], problem);
+	if (x.magnification_free)
+		AddLikely<LENS_SIZE>(x.lens.data(), MAGNIFICATION, 1, PUPIL_MAGNIFICATION_SIGMA, problem);
 	for (int k = 0; x.rims_free && k < RIM_SIZE * int(x.sides.size()); ++k)
 		AddLikely<RIMS_SIZE>(x.rims.data(), k, fit.rims_about[size_t(k)], SIGMA_OF_LOG_RIM, problem);
 }
@@ -227,19 +228,21 @@ std::vector<const double*> SharedBlocks(const RealLensNumbers& x)
 std::vector<tilt_lens::Rim> RealLensNumbers::Rims() const
 {
 	std::vector<tilt_lens::Rim> all;
+	const double opening = r * lens[OPENING];
 	for (size_t k = 0; k < sides.size(); ++k)
-		all.push_back({ std::exp(rims[RIM_SIZE * k + LOG_RADIUS]), sides[k] * std::exp(rims[RIM_SIZE * k + LOG_DISTANCE]) });
+		all.push_back({ opening * std::exp(rims[RIM_SIZE * k + LOG_RADIUS]), opening * sides[k] * std::exp(rims[RIM_SIZE * k + LOG_DISTANCE]) });
 	return all;
 }
 
 RealLensNumbers StartOfRealLens(const Task& task, const Geometry& geometry, const Solution& thin, const std::vector<tilt_lens::Rim>& rims)
 {
 	RealLensNumbers x;
+	x.r = 0.5 * thin.aperture_diameter.value;
 	for (size_t k = 0; k < rims.size() && k < size_t(MOST_RIMS); ++k)
 	{
 		x.sides.push_back(rims[k].distance > 0 ? 1 : -1);
-		x.rims[RIM_SIZE * k + LOG_RADIUS] = std::log(rims[k].radius);
-		x.rims[RIM_SIZE * k + LOG_DISTANCE] = std::log(std::abs(rims[k].distance));
+		x.rims[RIM_SIZE * k + LOG_RADIUS] = std::log(rims[k].radius / x.r);
+		x.rims[RIM_SIZE * k + LOG_DISTANCE] = std::log(std::abs(rims[k].distance) / x.r);
 	}
 	x.gradients.assign(std::max<size_t>(1, task.states[0].photos.size()), { 0, 0 });
 	double power = 0;
@@ -252,7 +255,6 @@ RealLensNumbers StartOfRealLens(const Task& task, const Geometry& geometry, cons
 		x.centres.push_back({ 0, 0, 0 });
 		power += 1 / thin.states[s].focal_length.value / double(task.states.size());
 	}
-	x.r = 0.5 * thin.aperture_diameter.value;
 	x.lens = { power * task.pitch_mm, 1, 1, thin.psf_floor_squared.value };
 	return x;
 }

@@ -25,7 +25,7 @@ struct RealLensNumbers
 	std::array<double, real_lens::LENS_SIZE> lens{};
 	std::array<double, tilt_lens::AberrationTerms> c{};   ///< mm
 	double r = 0;                                         ///< mm
-	std::array<double, real_lens::RIMS_SIZE> rims{};      ///< of those that `sides` has
+	std::array<double, real_lens::RIMS_SIZE> rims{};      ///< of those that `sides` has, in radii of the opening
 	RimSides sides;
 	std::vector<std::array<double, 2>> gradients;         ///< of the lighting of the photographs that are lit alike, by their number
 	bool rims_free = false;
@@ -33,7 +33,7 @@ struct RealLensNumbers
 	bool magnification_free = false;
 	bool lens_held = false;                               ///< the lens and the states' tilts
 
-	std::vector<tilt_lens::Rim> Rims() const;
+	std::vector<tilt_lens::Rim> Rims() const;             ///< mm
 	Pose& PoseOf(size_t s, size_t p) { return poses[shared_poses ? 0 : s][p]; }
 	const Pose& PoseOf(size_t s, size_t p) const { return poses[shared_poses ? 0 : s][p]; }
 };

@@ -24,20 +24,21 @@ namespace tiltcal
 /// Sides of the rims that there are: 1 before the entrance pupil, -1 behind the exit pupil.
 using RimSides = std::vector<int>;
 
-/// Log of the light of one place of the picture, but for a constant. `radius`: of the opening, exit pupil. `mounted_double` is `mounted` without derivatives.
+/// Log of the light of one place of the picture, but for a constant. `opening`: its radius as the entrance pupil's. `mounted_double` is `mounted` without derivatives.
 template<typename T>
-T LogLightThroughRims(const MountedLens<T>& mounted, const MountedLens<double>& mounted_double, const T& radius, const T* rims, const RimSides& sides)
+T LogLightThroughRims(const MountedLens<T>& mounted, const MountedLens<double>& mounted_double, const T& opening, const T* rims, const RimSides& sides)
 {
 	using std::exp;
 	using std::log;
+	const T radius = opening * mounted.lens.pupil_magnification;
 	const double radius_double = ValueOf(radius);
 	const OpeningView view{ mounted_double.lens, radius_double, mounted_double.x, mounted_double.y, mounted_double.depth };
 	T rim_radius[real_lens::MOST_RIMS], distance[real_lens::MOST_RIMS];
 	double width[real_lens::MOST_RIMS];
 	for (size_t i = 0; i < sides.size(); ++i)
 	{
-		rim_radius[i] = exp(rims[real_lens::RIM_SIZE * i + real_lens::LOG_RADIUS]);
-		distance[i] = T(double(sides[i])) * exp(rims[real_lens::RIM_SIZE * i + real_lens::LOG_DISTANCE]);
+		rim_radius[i] = opening * exp(rims[real_lens::RIM_SIZE * i + real_lens::LOG_RADIUS]);
+		distance[i] = T(double(sides[i])) * opening * exp(rims[real_lens::RIM_SIZE * i + real_lens::LOG_DISTANCE]);
 		width[i] = WidthAtRim(view, ValueOf(distance[i]));
 	}
 	T open(0);
@@ -96,8 +97,7 @@ struct RealLensPatches
 			const Patch& p = patches[i];
 			const MountedLens<T> mounted(state, lens, c, r, pitch_mm, p.u, p.v);
 			const MountedLens<double> mounted_double(values, lens_double, c_double, r, pitch_mm, p.u, p.v);
-			const T radius = T(r) * lens[real_lens::OPENING] * lens[real_lens::MAGNIFICATION];
-			seen[i] = LogLightThroughRims(mounted, mounted_double, radius, rims, sides) + gradient[0] * T(p.place[0]) + gradient[1] * T(p.place[1]) - T(p.log_value);
+			seen[i] = LogLightThroughRims(mounted, mounted_double, T(T(r) * lens[real_lens::OPENING]), rims, sides) + gradient[0] * T(p.place[0]) + gradient[1] * T(p.place[1]) - T(p.log_value);
 		}
 	}
 

@@ -3,6 +3,7 @@
 #include "solve/solve_real_lens.h"
 
 #include "base/stopwatch.h"
+#include "lens/optical_vignetting.h"
 #include "model/thin_lens_of_real.h"
 #include "model/tilt_angles.h"
 #include "solve/fill_solution.h"
@@ -87,7 +88,53 @@ RealLensState StateOf(const RealLensAnswer& answer, size_t s, size_t photographs
 	return state;
 }
 
-RealLens Described(const Task& task, const RealLensAnswer& answer)
+/// Of the sum of a rim's logarithm, number `at`, and the opening's: what its radius or distance in mm has.
+double RelativeSigma(const RealLensNumbers& x, const Eigen::MatrixXd& of_numbers, int at)
+{
+	const double opening = x.lens[OPENING];
+	return std::sqrt(std::max(0., of_numbers(at, at) + 2 * of_numbers(at, OPENING) / opening + of_numbers(OPENING, OPENING) / (opening * opening)));
+}
+
+/// `before`: as they were told before the lens; what they were told with stays theirs where the lens leaves them.
+std::vector<RimEstimate> RimsOf(const RealLensAnswer& answer, const std::vector<RimEstimate>& before, double board)
+{
+	std::vector<RimEstimate> rims;
+	for (const tilt_lens::Rim& rim : answer.numbers.Rims())
+	{
+		const int at = LENS_SIZE + tilt_lens::AberrationTerms + RIM_SIZE * int(rims.size());
+		const auto sigma = [&](int number)
+		{
+			const double by_edges = RelativeSigma(answer.numbers, answer.judged.by_edges, at + number);
+			const double by_photographs = answer.judged.by_photographs ? RelativeSigma(answer.numbers, *answer.judged.by_photographs, at + number) : 0;
+			return std::hypot(std::max(by_edges, by_photographs), board);
+		};
+		const RimEstimate& held = before[rims.size()];
+		const auto with = [&](double value, double relative, const Estimate& told)
+		{
+			return Estimate{ value, std::abs(value) * std::hypot(relative, answer.numbers.rims_free ? 0 : told.sigma / told.value) };
+		};
+		rims.push_back({ with(rim.radius, sigma(LOG_RADIUS), held.radius_mm), with(rim.distance, sigma(LOG_DISTANCE), held.distance_mm) });
+	}
+	return rims;
+}
+
+/// The aperture, or where a rim is narrower for the light from the point in focus on the axis, that rim seen from there.
+Estimate OpeningOnAxis(const RealLens& lens)
+{
+	const Vec3<double> axis{ 0, 0, 1 };
+	const double m = lens.pupil_magnification.value, w = lens.states[0].image_distance_mm.value / m;
+	Estimate least = lens.aperture_diameter_mm;
+	for (const RimEstimate& rim : lens.rims)
+	{
+		const double Z = rim.distance_mm.value;
+		const double scale = Z > 0 ? tilt_lens::ViewOfRim(axis, axis, 1 / lens.states[0].lens.focus_distance.value, Z).scale : tilt_lens::ViewOfRimBehind(axis, axis, axis, w, m, Z).scale;
+		if (const double d = 2 * rim.radius_mm.value / std::abs(scale); d < least.value)
+			least = { d, d * rim.radius_mm.sigma / rim.radius_mm.value };
+	}
+	return least;
+}
+
+RealLens Described(const Task& task, const RealLensAnswer& answer, const std::vector<RimEstimate>& rims)
 {
 	RealLens found;
 	const RealLensNumbers& x = answer.numbers;
@@ -101,17 +148,13 @@ RealLens Described(const Task& task, const RealLensAnswer& answer)
 	found.aperture_diameter_mm = { d, std::hypot(2 * x.r * sigma[OPENING], board * d) };
 	found.psf_floor_squared = { x.lens[FLOOR_SQUARED], sigma[FLOOR_SQUARED] };
 	found.radius_mm = x.r;
-	const std::vector<tilt_lens::Rim> found_rims = x.Rims();
-	for (size_t k = 0; x.rims_free && k < found_rims.size(); ++k)
-	{
-		const size_t at = size_t(LENS_SIZE + tilt_lens::AberrationTerms) + RIM_SIZE * k;
-		found.rims.push_back({ { found_rims[k].radius, found_rims[k].radius * sigma[at + LOG_RADIUS] }, { found_rims[k].distance, std::abs(found_rims[k].distance) * sigma[at + LOG_DISTANCE] } });
-	}
+	found.rims = RimsOf(answer, rims, board);
 	found.fifth_order = x.free[tilt_lens::ThirdOrderTerms];
 	for (size_t k = 0; k < found.aberrations_mm.size(); ++k)
 		found.aberrations_mm[k] = { x.c[k], sigma[LENS_SIZE + k] };
 	for (size_t s = 0; s < task.states.size(); ++s)
 		found.states.push_back(StateOf(answer, s, task.states[s].photos.size(), task.pitch_mm, sigma));
+	found.opening_on_axis_mm = OpeningOnAxis(found);
 	found.rms_place = answer.error.offset;
 	found.rms_blur = answer.error.blur;
 	found.held_out = answer.judged.held_out;
@@ -120,18 +163,21 @@ RealLens Described(const Task& task, const RealLensAnswer& answer)
 
 }
 
-RealLenses FindRealLens(const Task& task, const Geometry& geometry, const Solution& thin, const std::vector<tilt_lens::Rim>& rims,
+RealLenses FindRealLens(const Task& task, const Geometry& geometry, const Solution& thin, const std::vector<RimEstimate>& rims,
 	const std::function<bool(RealLens& tilts)>& judge)
 {
 	RealLenses found;
 	const Stopwatch time;
-	const std::optional<RealLensAnswer> six = SolveRealLens(task, geometry, thin, rims);
+	std::vector<tilt_lens::Rim> start;
+	for (const RimEstimate& rim : rims)
+		start.push_back({ rim.radius_mm.value, rim.distance_mm.value });
+	const std::optional<RealLensAnswer> six = SolveRealLens(task, geometry, thin, start);
 	if (!six)
 	{
 		found.tilts.failure = "the fit did not converge, or the photographs do not tell its numbers apart: photograph more inclined boards, sharp in one part and blurred in another, to the picture's corners";
 		return found;
 	}
-	found.tilts = Described(task, *six);
+	found.tilts = Described(task, *six, rims);
 	found.tilts.held_out_thin = HeldOutOf(task, geometry, thin, six->error);
 	found.tilts.seconds = time.Seconds();
 	if (!judge(found.tilts))
@@ -140,7 +186,7 @@ RealLenses FindRealLens(const Task& task, const Geometry& geometry, const Soluti
 	const std::optional<RealLensAnswer> sixteen = SolveSceneLens(task, geometry, six->numbers);
 	if (sixteen && (!geometry.shared_poses || sixteen->about_shared_poses))
 	{
-		found.scene = Described(task, *sixteen);
+		found.scene = Described(task, *sixteen, rims);
 		found.scene->held_out_thin = sixteen->held_out_before;
 		found.scene->seconds = more.Seconds();
 	}

@@ -5,8 +5,6 @@
 
 #include <tiltcal/calibration.h>
 
-#include "lens/optical_vignetting.h"
-
 #include <functional>
 #include <optional>
 #include <vector>
@@ -23,7 +21,7 @@ struct RealLenses
 
 /// One real lens for all states, from the thin lens on; `rims`: what vignettes. Where there is no answer, its failure says so. `judge`
 /// sets `used` of the one found, and says whether the one of sixteen numbers, which takes three times as long, is asked for beside it.
-RealLenses FindRealLens(const Task& task, const Geometry& geometry, const Solution& thin, const std::vector<tilt_lens::Rim>& rims,
+RealLenses FindRealLens(const Task& task, const Geometry& geometry, const Solution& thin, const std::vector<RimEstimate>& rims,
 	const std::function<bool(RealLens& tilts)>& judge);
 
 }

@@ -318,11 +318,12 @@ struct RealLens
 {
 	std::string failure;              ///< why there is none; empty when there is one
 	Estimate focal_length_mm, pupil_magnification, aperture_diameter_mm, psf_floor_squared;
+	Estimate opening_on_axis_mm;      ///< what the rims leave of the aperture on the axis, of the light from the point in focus; never more than it
 	double radius_mm = 0;             ///< of the entrance pupil, at which the aberrations are stated
 	/// Spherical, coma, astigmatism, curvature, distortion, pupil, and ten of the fifth order, in the order of lens/aberrations.h.
 	std::array<Estimate, 16> aberrations_mm;
 	bool fifth_order = false;         ///< the ten are there
-	std::vector<RimEstimate> rims;    ///< found together with the lens; empty: those of the thin lens
+	std::vector<RimEstimate> rims;    ///< found together with the lens; of six numbers those of the thin lens, larger as the aperture is
 	std::vector<RealLensState> states;
 	double rms_place = 0, rms_blur = 0;       ///< robust, px
 	double held_out = 0;              ///< RMS residual of photographs predicted by the others, in what is usual of all; 0: cannot be said
