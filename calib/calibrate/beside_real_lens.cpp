@@ -41,7 +41,7 @@ void WidenByRealLens(Calibration& c)
 	if (c.scene_lens && c.scene_lens->used)
 		lenses.push_back(&*c.scene_lens);
 	const std::vector<double> f = OfEach(lenses, [](const RealLens& l) { return l.focal_length_mm.value; });
-	const auto focus = [&](size_t s) { return OfEach(lenses, [s](const RealLens& l) { return l.states[s].lens.focus_distance.value; }); };
+	const auto focus = [&](size_t s) { return OfEach(lenses, [s](const RealLens& l) { return l.states[s].best_focus_mm; }); };
 	for (Solution* told : { &c.solution, &c.render })
 	{
 		Widen(f, told->focal_length);

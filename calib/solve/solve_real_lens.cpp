@@ -10,6 +10,8 @@
 #include "solve/real_lens_fit.h"
 #include "solve/solve_joint.h"
 
+#include <Eigen/Dense>
+
 #include <algorithm>
 #include <cmath>
 
@@ -60,6 +62,26 @@ Eigen::Matrix4d CovarianceOfThinLens(const RealLensNumbers& x, size_t s, const E
 	return by * c * by.transpose();
 }
 
+/// Along the sensor's normal to the point that the rays of the principal point's light come nearest to (least squares), mm: where a thin lens is told to be focused, for
+/// it too goes by the blur. Spherical aberration puts it off the plane that the axis's nearest rays are focused on. Infinite or negative: at infinity, beyond.
+double BestFocus(const RealLensNumbers& x, size_t s, double pitch_mm)
+{
+	const double u = x.states[s][CX], v = x.states[s][CY], radius = x.r * x.lens[OPENING] * x.lens[MAGNIFICATION];
+	const MountedLens<double> mounted(x.states[s].data(), x.lens.data(), x.c.data(), x.r, pitch_mm, u, v);
+	Eigen::Matrix3d across = Eigen::Matrix3d::Zero();
+	Eigen::Vector3d from = Eigen::Vector3d::Zero();
+	for (const OpeningPoint& p : OpeningThroughRims({ mounted.lens, radius, mounted.x, mounted.y, mounted.depth, FINE }, x.Rims()))
+	{
+		Vec3<double> origin, direction;
+		mounted.Ray(radius * p.x, radius * p.y, origin, direction);
+		const Eigen::Vector3d d = Eigen::Vector3d(direction.x, direction.y, direction.z).normalized();
+		const Eigen::Matrix3d beside = p.weight * (Eigen::Matrix3d::Identity() - d * d.transpose());
+		across += beside;
+		from += beside * Eigen::Vector3d(origin.x, origin.y, origin.z);
+	}
+	return across.inverse().row(2).dot(from);
+}
+
 RealLensState StateOf(const RealLensAnswer& answer, size_t s, size_t photographs, double pitch_mm, const std::vector<double>& sigma)
 {
 	const RealLensNumbers &x = answer.numbers, &stands = answer.about_shared_poses ? *answer.about_shared_poses : x;
@@ -77,6 +99,7 @@ RealLensState StateOf(const RealLensAnswer& answer, size_t s, size_t photographs
 	state.image_distance_mm = { stands.states[s][W] * pitch_mm, sigma[at + W] * pitch_mm };
 	state.principal_point = { stands.states[s][CX], stands.states[s][CY] };
 	state.principal_point_sigma = { sigma[at + CX], sigma[at + CY] };
+	state.best_focus_mm = BestFocus(stands, s, pitch_mm);
 	const auto& centre = stands.centres[s];
 	state.lens_centre_mm = { centre[0], centre[1], centre[2] };
 	for (size_t p = 0; p < photographs; ++p)

@@ -201,8 +201,8 @@ TEST(BesideRealLens, SigmasHoldHowFarTheLensesDisagree)
 	six.pupil_magnification = { 1.1, 0 };
 	six.states.resize(2);
 	six.states[0].image_distance_mm = { 52.36, 0 };
-	six.states[0].lens.focus_distance = { 601.5, 0 };
-	six.states[1].lens.focus_distance = { -2000, 0 };
+	six.states[0].best_focus_mm = 601.5;
+	six.states[1].best_focus_mm = -2000;
 	c.real_lens = six;
 	c.scene_lens = six;
 	c.scene_lens->used = true;

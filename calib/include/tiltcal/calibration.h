@@ -307,6 +307,7 @@ struct RealLensState
 {
 	StateLens lens;                   ///< of the thin lens that stands for it near its axis (povray-patch/lens/MODEL.md, Real lenses)
 	Estimate image_distance_mm;
+	double best_focus_mm = 0;         ///< along the sensor's normal, where the whole opening's light from the principal point's pixel is sharpest; infinite or negative: at infinity, beyond
 	Point principal_point{}, principal_point_sigma{};   ///< of the exit pupil, px
 	std::vector<Pose> poses;          ///< camera_from_board; the camera's origin is the centre of the entrance pupil
 	/// Where that lies seen from the untilted state's, camera frame; 0 unless poses are shared.
