@@ -2,10 +2,11 @@
 # and lays out STAGE/bin, STAGE/share and STAGE/etc so that it runs from there.
 #
 #   cmake -DWORK=... -DSTAGE=... -DPATCH_DIR=... -DLENS_LIBRARY=... -DFLAGS=... [-DSOURCE=...] [-DCCACHE=...]
-#         [-DCXX=...] [-DCC=...] [-DOWN_FLAGS=...] -P BuildPovray.cmake
+#         [-DCXX=...] [-DCC=...] [-DOWN_FLAGS=...] [-DPROFILE=...] -P BuildPovray.cmake
 #
 # LENS_LIBRARY: the archive of PATCH_DIR/lens, which CMake has made.
 # OWN_FLAGS: further flags for tilt_lens/*.cpp and for linking, not for upstream's sources.
+# PROFILE: a folder for what GCC learns of POV-Ray at work; POV-Ray is built twice then (ProfilePovray.cmake).
 
 cmake_minimum_required(VERSION 3.25)
 
@@ -19,6 +20,10 @@ execute_process(
 	COMMAND "${CMAKE_COMMAND}" "-DARCHIVE=${WORK}/${POVRAY_ARCHIVE}" "-DWORK=${WORK}" "-DPATCH_DIR=${PATCH_DIR}"
 		-P "${CMAKE_CURRENT_LIST_DIR}/PatchPovray.cmake"
 	COMMAND_ERROR_IS_FATAL ANY)
+
+if(PROFILE)
+	include("${CMAKE_CURRENT_LIST_DIR}/ProfilePovray.cmake")
+endif()
 
 # Optimisation flags are ours, not configure's: its -ffast-math may not be had in a
 # program that promises to handle infinities, nor -march=native in one whose
@@ -35,6 +40,17 @@ set(configured "")
 if(EXISTS "${WORK}/configured.txt")
 	file(READ "${WORK}/configured.txt" configured)
 endif()
+
+# make does not know that its flags have changed.
+set(compiled "")
+if(EXISTS "${WORK}/compiled.txt")
+	file(READ "${WORK}/compiled.txt" compiled)
+endif()
+if(compiled AND NOT compiled STREQUAL "${FLAGS}|${OWN_FLAGS}|${CXX}|${CC}")
+	file(GLOB_RECURSE objects "${src}/*.o" "${src}/*.a")
+	file(REMOVE ${objects} "${src}/unix/povray")
+endif()
+file(WRITE "${WORK}/compiled.txt" "${FLAGS}|${OWN_FLAGS}|${CXX}|${CC}")
 
 if(NOT configured STREQUAL wanted)
 	message(STATUS "POV-Ray: configuring (log in ${WORK}/configure.log)")

@@ -36,6 +36,9 @@ public:
 	/// standard deviations of both kinds of residuals become what is left over. False: no convergence.
 	bool Search(Rims& rims, int distance_sign, double focal_length);
 
+	/// What the rims leave over of the logarithm of a patch's light, as the last Search learnt it.
+	double LightSigma() const { return light_.model_sigma; }
+
 	/// Twice the cost.
 	double ChiSquared(const Rims& rims) const;
 

@@ -105,7 +105,9 @@ TwoRims TrySecondRim(const RimFit& start, const tilt_lens::Rim& rim, double foca
 		return result;
 	}
 	const Candidate behind = Try(single, one, -1, focal_length), before = Try(single, one, 1, focal_length);
-	const Candidate& best = before.sigmas > behind.sigmas ? before : behind;
+	// By what is left of the light alone: aberrations shift edges too, and wide open they put both rims of a double Gauss before the lens, where one is behind.
+	const bool is_before = before.sigmas >= SIGNIFICANT && (behind.sigmas < SIGNIFICANT || before.fit.LightSigma() < behind.fit.LightSigma());
+	const Candidate& best = is_before ? before : behind;
 	Eigen::MatrixXd covariance;
 	result.verdict.sigmas = best.sigmas;
 	if (best.sigmas < SIGNIFICANT || !best.fit.Covariance(best.rims, covariance))

@@ -24,20 +24,30 @@ std::optional<RealLensNumbers> AboutSharedPoses(const RealLensFit& fit, const st
 	return fit.Minimise(edges, x, false) ? std::optional(x) : std::nullopt;
 }
 
-/// Rounds, each built about the last one's answer, which knows better what the lens leaves out. False: no convergence.
+/// More rounds than asked for, where a fit's answer went beyond what its edges are true about.
+const int MOST_ROUNDS = 10;
+
+/// Whether edges that are built about an answer misfit as much as those that led to it.
+bool IsTrueAbout(const ModelError& before, const ModelError& after) { return after.offset < 1.1 * before.offset && after.blur < 1.1 * before.blur; }
+
+/// Rounds, each built about the last one's answer, which knows better what the lens leaves out; so many, and on until the last is true about its own. False: none is, or no convergence.
 bool GoRounds(RealLensFit& fit, RealLensNumbers& x, std::vector<RealLensEdge>& edges, int rounds)
 {
-	for (int round = 0; round < rounds; ++round)
+	bool done = false;
+	for (int round = 0; round < MOST_ROUNDS && !done; ++round)
 	{
 		fit.error = ErrorOf(fit.Residuals(edges, x));
 		fit.LearnLight(x);
-		if (!fit.Minimise(edges, x, round + 1 < rounds))
+		const bool last = round + 1 >= rounds;
+		if (!fit.Minimise(edges, x, !last))
 			return false;
+		const ModelError led = ErrorOf(fit.Residuals(edges, x));
 		edges = fit.EdgesAbout(x);
+		done = last && IsTrueAbout(led, ErrorOf(fit.Residuals(edges, x)));
 	}
 	fit.error = ErrorOf(fit.Residuals(edges, x));
 	fit.LearnLight(x);
-	return true;
+	return done;
 }
 
 std::optional<RealLensAnswer> Answer(const RealLensFit& fit, const std::vector<RealLensEdge>& edges, const Geometry& geometry, RealLensNumbers x)

@@ -31,10 +31,20 @@ namespace real_lens
 enum State { NX, NY, W, CX, CY, STATE_SIZE };
 /// Of the lens: its power in units of 1/px of image distance (power times pitch), m, radius of the opening as the entrance pupil's in units of r, floor^2 in px^2.
 enum Lens { POWER, MAGNIFICATION, OPENING, FLOOR_SQUARED, LENS_SIZE };
-/// Of each rim in turn: logarithms of its radius and of its distance, in radii of the opening. So a larger opening keeps the shape that they leave of it, which is
-/// what light tells; else a rim that the axis's rays meet holds an opening back that the blur wants larger.
+/// Of each rim in turn: logarithms of its radius and of its distance, in the units of UnitsOfRim.
 enum Rims { LOG_RADIUS, LOG_DISTANCE, RIM_SIZE };
 const int MOST_RIMS = 2, RIMS_SIZE = MOST_RIMS * RIM_SIZE;
+
+/// Of radius and distance. The light tells the shape that the rims leave of the opening, and in these units it stays when opening R and pupil magnification m change: before
+/// the lens a rim's centre is seen beside the pupil's by Z tan(theta), in radii by Z / R; behind it by X Z / (m w) of m R, that is by Z / (m^2 R).
+/// In mm a rim that the axis's rays meet would hold back an opening that the blur wants larger, one behind the lens would cut more as m grows.
+template<typename T>
+struct UnitsOfRim
+{
+	T radius, distance;
+
+	UnitsOfRim(const T& opening, const T& m, int side) : radius(side > 0 ? opening : T(opening * m)), distance(side > 0 ? opening : T(opening * m * m)) {}
+};
 
 }
 

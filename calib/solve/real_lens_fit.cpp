@@ -228,9 +228,11 @@ std::vector<const double*> SharedBlocks(const RealLensNumbers& x)
 std::vector<tilt_lens::Rim> RealLensNumbers::Rims() const
 {
 	std::vector<tilt_lens::Rim> all;
-	const double opening = r * lens[OPENING];
 	for (size_t k = 0; k < sides.size(); ++k)
-		all.push_back({ opening * std::exp(rims[RIM_SIZE * k + LOG_RADIUS]), opening * sides[k] * std::exp(rims[RIM_SIZE * k + LOG_DISTANCE]) });
+	{
+		const UnitsOfRim<double> unit(r * lens[OPENING], lens[MAGNIFICATION], sides[k]);
+		all.push_back({ unit.radius * std::exp(rims[RIM_SIZE * k + LOG_RADIUS]), sides[k] * unit.distance * std::exp(rims[RIM_SIZE * k + LOG_DISTANCE]) });
+	}
 	return all;
 }
 

@@ -25,7 +25,7 @@ struct RealLensNumbers
 	std::array<double, real_lens::LENS_SIZE> lens{};
 	std::array<double, tilt_lens::AberrationTerms> c{};   ///< mm
 	double r = 0;                                         ///< mm
-	std::array<double, real_lens::RIMS_SIZE> rims{};      ///< of those that `sides` has, in radii of the opening
+	std::array<double, real_lens::RIMS_SIZE> rims{};      ///< of those that `sides` has
 	RimSides sides;
 	std::vector<std::array<double, 2>> gradients;         ///< of the lighting of the photographs that are lit alike, by their number
 	bool rims_free = false;

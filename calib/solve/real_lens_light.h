@@ -37,8 +37,9 @@ T LogLightThroughRims(const MountedLens<T>& mounted, const MountedLens<double>& 
 	double width[real_lens::MOST_RIMS];
 	for (size_t i = 0; i < sides.size(); ++i)
 	{
-		rim_radius[i] = opening * exp(rims[real_lens::RIM_SIZE * i + real_lens::LOG_RADIUS]);
-		distance[i] = T(double(sides[i])) * opening * exp(rims[real_lens::RIM_SIZE * i + real_lens::LOG_DISTANCE]);
+		const real_lens::UnitsOfRim<T> unit(opening, mounted.lens.pupil_magnification, sides[i]);
+		rim_radius[i] = unit.radius * exp(rims[real_lens::RIM_SIZE * i + real_lens::LOG_RADIUS]);
+		distance[i] = T(double(sides[i])) * unit.distance * exp(rims[real_lens::RIM_SIZE * i + real_lens::LOG_DISTANCE]);
 		width[i] = WidthAtRim(view, ValueOf(distance[i]));
 	}
 	T open(0);
