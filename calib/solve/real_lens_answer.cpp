@@ -2,6 +2,7 @@
 
 #include "solve/real_lens_fit.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace tiltcal
@@ -24,24 +25,38 @@ std::optional<RealLensNumbers> AboutSharedPoses(const RealLensFit& fit, const st
 	return fit.Minimise(edges, x, false) ? std::optional(x) : std::nullopt;
 }
 
-/// More rounds than asked for, where a fit's answer went beyond what its edges are true about.
-const int MOST_ROUNDS = 10;
+/// Where a fit's answer went beyond what its edges are true about.
+const int FURTHER_ROUNDS = 3;
 
 /// Whether edges that are built about an answer misfit as much as those that led to it.
 bool IsTrueAbout(const ModelError& before, const ModelError& after) { return after.offset < 1.1 * before.offset && after.blur < 1.1 * before.blur; }
 
-/// Rounds, each built about the last one's answer, which knows better what the lens leaves out; so many, and on until the last is true about its own. False: none is, or no convergence.
+/// The rims where they were before m changed from `m`, in radii of the opening; their own units move those behind the lens with it.
+void KeepRims(double m, RealLensNumbers& x)
+{
+	for (size_t k = 0; k < x.sides.size(); ++k)
+	{
+		const UnitsOfRim<double> was(1, m, x.sides[k]), is(1, x.lens[MAGNIFICATION], x.sides[k]);
+		x.rims[RIM_SIZE * k + LOG_RADIUS] += std::log(was.radius / is.radius);
+		x.rims[RIM_SIZE * k + LOG_DISTANCE] += std::log(was.distance / is.distance);
+	}
+}
+
+/// Rounds, each built about the last one's answer, which knows better what the lens leaves out; so many, and a few more until the last is true about its own. False: none is, or no convergence.
 bool GoRounds(RealLensFit& fit, RealLensNumbers& x, std::vector<RealLensEdge>& edges, int rounds)
 {
 	bool done = false;
-	for (int round = 0; round < MOST_ROUNDS && !done; ++round)
+	for (int round = 0; round < rounds + FURTHER_ROUNDS && !done; ++round)
 	{
 		fit.error = ErrorOf(fit.Residuals(edges, x));
 		fit.LearnLight(x);
 		const bool last = round + 1 >= rounds;
+		const double m = x.lens[MAGNIFICATION];
 		if (!fit.Minimise(edges, x, !last))
 			return false;
 		const ModelError led = ErrorOf(fit.Residuals(edges, x));
+		if (fit.rims_know_pupils)
+			KeepRims(m, x);
 		edges = fit.EdgesAbout(x);
 		done = last && IsTrueAbout(led, ErrorOf(fit.Residuals(edges, x)));
 	}
@@ -97,13 +112,20 @@ std::array<double, tilt_lens::AberrationTerms> LikelyFifthOrder(const std::array
 
 std::optional<RealLensAnswer> SolveRealLens(const Task& task, const Geometry& geometry, const Solution& thin, const std::vector<tilt_lens::Rim>& rims)
 {
-	RealLensNumbers x = StartOfRealLens(task, geometry, thin, rims);
-	for (int k = 0; k < tilt_lens::ThirdOrderTerms; ++k)
-		x.free[size_t(k)] = true;
-	x.magnification_free = true;
-	RealLensFit fit{ task };
-	std::vector<RealLensEdge> edges = fit.EdgesAbout(x);
-	return GoRounds(fit, x, edges, 4) ? Answer(fit, edges, geometry, x) : std::nullopt;
+	const bool is_behind = std::any_of(rims.begin(), rims.end(), [](const tilt_lens::Rim& rim) { return rim.distance < 0; });
+	for (const bool rims_know_pupils : is_behind ? std::vector<bool>{ true, false } : std::vector<bool>{ false })
+	{
+		RealLensNumbers x = StartOfRealLens(task, geometry, thin, rims);
+		for (int k = 0; k < tilt_lens::ThirdOrderTerms; ++k)
+			x.free[size_t(k)] = true;
+		x.magnification_free = true;
+		RealLensFit fit{ task };
+		fit.rims_know_pupils = rims_know_pupils;
+		std::vector<RealLensEdge> edges = fit.EdgesAbout(x);
+		if (GoRounds(fit, x, edges, 4))
+			return Answer(fit, edges, geometry, x);
+	}
+	return std::nullopt;
 }
 
 std::optional<RealLensAnswer> SolveSceneLens(const Task& task, const Geometry& geometry, const RealLensNumbers& six)

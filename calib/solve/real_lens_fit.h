@@ -48,6 +48,8 @@ struct RealLensFit
 	ModelError error{};
 	double light_error = 0.02;             ///< what the model leaves out of the logarithm of a patch's light
 	std::vector<RealLensExposure> exposures{};
+	/// Rims behind the lens stay where they were told when m changes, by which they tell m a little, which edges tell badly; else the shape that they leave of the opening stays.
+	bool rims_know_pupils = false;
 	/// Standard deviations of what is known of the numbers before: of c, about 0, and of the rims, about `rims_about`; 0: nothing is known.
 	std::array<double, tilt_lens::AberrationTerms> likely_c{};
 	std::array<double, real_lens::RIMS_SIZE> rims_about{};
