@@ -255,6 +255,7 @@ void WidenWhereGlassShows(const CalibrateOptions& o, Calibration& c)
 		return;
 	o.log.Info("solving parts of the edges: how far they put the lens apart");
 	const Solution whole = c.solution;
+	c.before_parts = whole.states;
 	const std::vector<PartAnswer> parts = SolveParts(c);
 	const auto& priors = c.task.priors;
 	const bool told_f = std::any_of(priors.begin(), priors.end(), [](const Prior& p) { return p.quantity == Quantity::FOCAL_LENGTH; });

@@ -30,14 +30,28 @@ const double CERTAIN = 3;   // sigmas
 const double SHARP = 4;
 const int ENOUGH_SHARP = 20;
 
-/// Slope of places by radii of one photograph, least squares through 0.
-double SlopeOf(const Calibration& c, size_t s, size_t p, double& weight)
+/// Of every edge, from where the lens puts it to where it was measured, to the bright side, px. By the real lens where that is the answer: what it makes of coma would be
+/// taken for a tone curve's work where the edges that were measured have their bright sides on one side more often than on the other.
+std::vector<double> ShiftsOf(const Calibration& c)
+{
+	std::vector<double> shifts;
+	ForEachEdge(c.task, [&](size_t s, size_t p, const Edge& e)
+	{
+		const Point at = Reproject(c.task, c.geometry, s, p, e.board_column, e.board_row), normal = EdgeNormal(e);
+		shifts.push_back((e.x - at[0]) * normal[0] + (e.y - at[1]) * normal[1]);
+	});
+	if (c.RealLensIsUsed() && c.LensOfScenes().place_errors_px.size() == shifts.size())
+		std::transform(c.LensOfScenes().place_errors_px.begin(), c.LensOfScenes().place_errors_px.end(), shifts.begin(), [](double error) { return -error; });
+	return shifts;
+}
+
+/// Slope of places by radii of one photograph, least squares through 0. at: the shift of its first edge; left at the next photograph's.
+double SlopeOf(const Calibration& c, size_t s, size_t p, std::vector<double>::const_iterator& at, double& weight)
 {
 	double ab = 0, aa = 0;
 	for (const Edge& e : c.task.states[s].photos[p].edges)
 	{
-		const Point at = Reproject(c.task, c.geometry, s, p, e.board_column, e.board_row), normal = EdgeNormal(e);
-		const double shift = (e.x - at[0]) * normal[0] + (e.y - at[1]) * normal[1], radius = 0.5 * PredictedBlur(c, s, p, e);
+		const double shift = *at++, radius = 0.5 * PredictedBlur(c, s, p, e);
 		ab += shift * radius;
 		aa += radius * radius;
 	}
@@ -59,6 +73,8 @@ LightCheck CheckLight(const Calibration& c)
 	LightCheck light;
 	const double unknown = std::numeric_limits<double>::quiet_NaN();
 	light.sharpening = SharpEdges(c.task) < ENOUGH_SHARP ? Estimate{ unknown, unknown } : Estimate{ -c.solution.psf_floor_squared.value, c.solution.psf_floor_squared.sigma };
+	const std::vector<double> shifts = ShiftsOf(c);
+	auto shift = shifts.begin();
 	std::vector<double> slopes, weights;
 	double edges = 0, clipped = 0;
 	for (size_t s = 0; s < c.task.states.size(); ++s)
@@ -68,7 +84,7 @@ LightCheck CheckLight(const Calibration& c)
 			clipped += photo.saturated_share * double(photo.edges.size());
 			edges += double(photo.edges.size());
 			double weight = 0;
-			slopes.push_back(SlopeOf(c, s, p, weight));
+			slopes.push_back(SlopeOf(c, s, p, shift, weight));
 			weights.push_back(weight);
 		}
 	light.clipped_share = edges > 0 ? clipped / edges : 0;

@@ -96,11 +96,13 @@ private:
 
 	void Tilt(size_t s)
 	{
-		const StateLens& lens = c.solution.states[s];
-		if (lens.lens_tilt.sigma > 0.03)
-			Say(lens.lens_tilt.sigma > 0.15 ? Grade::POOR : Grade::FAIR, fmt::format("state {}: the tilt is known to {:.2f} degrees only: photograph the board in more poses, "
-				"inclined so that it is sharp in one part and blurred in another", StateName(s), lens.lens_tilt.sigma));
-		if (lens.chosen_by_power)
+		const double wanted = 0.03, sigma = c.TiltOf(s).lens_tilt.sigma;
+		const bool by_model = s < c.before_parts.size() && c.before_parts[s].lens_tilt.sigma <= wanted;
+		if (sigma > wanted)
+			Say(sigma > 0.15 ? Grade::POOR : Grade::FAIR, fmt::format("state {}: the tilt is known to {:.2f} degrees only: {}", StateName(s), sigma, by_model
+				? "parts of the edges put it apart, by what a thin lens leaves out of the blur: more photographs do not tell it better, a smaller aperture does"
+				: "photograph the board in more poses, inclined so that it is sharp in one part and blurred in another"));
+		if (c.solution.states[s].chosen_by_power)
 			Say(Grade::POOR, fmt::format("state {}: two planes of focus fit the blur, and the one that keeps the focal length was taken: photograph more poses", StateName(s)));
 	}
 

@@ -69,6 +69,7 @@ std::optional<RealLensAnswer> Answer(const RealLensFit& fit, const std::vector<R
 {
 	RealLensAnswer answer;
 	answer.error = fit.error;
+	answer.residuals = fit.Residuals(edges, x);
 	const std::optional<RealLensFit::Judged> judged = fit.Judge(edges, x);
 	if (!judged)
 		return std::nullopt;

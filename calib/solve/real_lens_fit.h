@@ -83,6 +83,7 @@ struct RealLensAnswer
 	/// what six numbers leave out of the picture would go into the tilts otherwise.
 	std::optional<RealLensNumbers> about_shared_poses;
 	ModelError error;
+	std::vector<std::array<double, 2>> residuals;   ///< RealLensFit::Residuals
 	RealLensFit::Judged judged;
 	double held_out_before = 0;   ///< of FitSceneLens: of the lens that it began with, in the same units
 };

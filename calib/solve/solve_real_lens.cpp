@@ -178,6 +178,8 @@ RealLens Described(const Task& task, const RealLensAnswer& answer, const std::ve
 	for (size_t s = 0; s < task.states.size(); ++s)
 		found.states.push_back(StateOf(answer, s, task.states[s].photos.size(), task.pitch_mm, sigma));
 	found.opening_on_axis_mm = OpeningOnAxis(found);
+	for (const std::array<double, 2>& place_and_blur : answer.residuals)
+		found.place_errors_px.push_back(place_and_blur[0]);
 	found.rms_place = answer.error.offset;
 	found.rms_blur = answer.error.blur;
 	found.held_out = answer.judged.held_out;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
 #include "calibrate/between_parts.h"
+#include "calibrate/verdict.h"
 #include "model/thin_lens_of_real.h"
 #include "support/synthetic_lens.h"
 
@@ -68,6 +69,34 @@ TEST(BetweenParts, AThinLensIsNotPutApart)
 	for (const PartAnswer& part : parts)
 		for (Estimate Solution::* number : { &Solution::w_mm, &Solution::focal_length, &Solution::aperture_diameter })
 			EXPECT_LT(std::abs((part.solution.*number).value - (c.solution.*number).value), 4 * (part.solution.*number).sigma);
+}
+
+// What to do about a tilt that is not known well depends on why it is not; and it is judged as it is told.
+TEST(BetweenParts, TheVerdictSaysWhatMorePhotographsDoNotMend)
+{
+	Calibration c = Calibrate(synthetic::TwoStates(synthetic::Lens(), synthetic::Tilted(5, 30), { 0.03, 0.06, 1 }, { 0.03, 0.06, 2 }), { Model::PLANE, Poses::OWN });
+	const auto remark = [&](const char* about)
+	{
+		for (const Remark& r : Judge(c).remarks)
+			if (r.text.find("tilt is known to 0.10 degrees only") != std::string::npos && r.text.find(about) != std::string::npos)
+				return true;
+		return false;
+	};
+	ASSERT_LT(c.solution.states[1].lens_tilt.sigma, 0.03);
+	c.before_parts = c.solution.states;
+	EXPECT_FALSE(remark(""));
+	c.solution.states[1].lens_tilt.sigma = 0.1;
+	EXPECT_TRUE(remark("more photographs do not"));
+	c.before_parts[1].lens_tilt.sigma = 0.08;
+	EXPECT_TRUE(remark("photograph the board in more poses"));
+	c.before_parts.clear();
+	EXPECT_TRUE(remark("photograph the board in more poses"));
+	RealLens lens;
+	lens.used = true;
+	lens.states.resize(2);
+	lens.states[1].lens.lens_tilt = { 5, 0.01 };
+	c.real_lens = lens;
+	EXPECT_FALSE(remark("")) << "the tilt that is told is the real lens's";
 }
 
 // The textbooks' lens of magnification M and pupil magnification m: the object lies f (1/m + 1/M) before the entrance pupil, the picture f (m + M)

@@ -6,6 +6,9 @@
 #include "camera_light.h"
 #include "closed_loop.h"
 #include "measure/clipped.h"
+#include "model/footprint.h"
+#include "model/predict.h"
+#include "solve/each_edge.h"
 
 #include <gtest/gtest.h>
 
@@ -44,6 +47,13 @@ TEST(Light, LinearLightIsGood)
 	EXPECT_LT(std::abs(c.light.bend.value), std::max(3 * c.light.bend.sigma, 0.004));
 	EXPECT_EQ(c.light.clipped_share, 0);
 	EXPECT_TRUE(JudgeLight(c.light).empty());
+	// By the real lens's places where that is the answer: here 0.03 of each radius to the bright side.
+	Calibration real = c;
+	real.real_lens.emplace();
+	ForEachEdge(c.task, [&](size_t s, size_t p, const Edge& e) { real.real_lens->place_errors_px.push_back(-0.03 * 0.5 * PredictedBlur(c, s, p, e)); });
+	EXPECT_EQ(CheckLight(real).bend.value, c.light.bend.value);
+	real.real_lens->used = true;
+	EXPECT_NEAR(CheckLight(real).bend.value, 0.03, 1e-9);
 }
 
 // Each biases blur by more than its sigma (the aperture by 7 to 25 %), so none may be good.

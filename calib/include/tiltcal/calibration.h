@@ -327,6 +327,7 @@ struct RealLens
 	std::vector<RimEstimate> rims;    ///< found together with the lens; of six numbers those of the thin lens, larger as the aperture is
 	std::vector<RealLensState> states;
 	double rms_place = 0, rms_blur = 0;       ///< robust, px
+	std::vector<double> place_errors_px;      ///< of every edge, predicted minus measured, along its normal to the bright side; states, photographs and edges one after the other
 	double held_out = 0;              ///< RMS residual of photographs predicted by the others, in what is usual of all; 0: cannot be said
 	double held_out_thin = 0;         ///< the same, in the same units, by the thin lens that it starts from
 	bool used = false;                ///< it is the answer: Calibration::TiltOf
@@ -353,6 +354,7 @@ struct Calibration
 	UntiltedCheck untilted_check;
 	std::vector<StateLens> blur_alone;      ///< the same before the joint refinement: blur, with the geometry held
 	GeometryAlone geometry_alone;
+	std::vector<StateLens> before_parts;    ///< as they scatter, where parts of the edges put the thin lens apart and its sigmas hold that; else empty
 	std::optional<RealLens> real_lens;      ///< where it was asked for, or the thin lens leaves aberrations over
 	/// Sixteen numbers and the rims, from `real_lens` on: what scenes are seen through where it is `used`. Its `held_out_thin` is that of `real_lens`, in its units.
 	std::optional<RealLens> scene_lens;
