@@ -54,7 +54,7 @@ steps) # what the real table runs exists
 		source, steps = sys.argv[1:]
 		presets = json.load(open(source + "/CMakePresets.json"))
 		names = lambda kind: {p["name"] for p in presets[kind]}
-		cmake = "".join(open(source + "/" + f).read() for f in ("tests/fuzz/CMakeLists.txt", "tests/accuracy/race/CMakeLists.txt", "tests/accuracy/calibrator/CMakeLists.txt"))
+		cmake = "".join(open(source + "/" + f).read() for f in ("tests/fuzz/CMakeLists.txt", "tests/accuracy/race/CMakeLists.txt", "tests/accuracy/calibrator/CMakeLists.txt", "povray-patch/CMakeLists.txt"))
 		lines = [l for l in open(steps).read().splitlines() if l and l[0] != "#"]
 		for line in lines:
 		    name, command = line.split(" | ", 1)
@@ -64,10 +64,10 @@ steps) # what the real table runs exists
 		        assert not preset or preset[1] in names(kind), line
 		        target = re.search(r"--target (\S+)", part)
 		        assert not target or "add_custom_target(%s\n" % target[1] in cmake.replace(" ", "\n"), line
-		        script = re.match(r"sh (\S+)", part)
+		        script = re.match(r"(?:sh|python3) (\S+)", part)
 		        assert not script or open(source + "/" + script[1]), line
 		found = {line.split(" ")[0] for line in lines}
-		wanted = {"dev-build", "dev-tests", "asan-unit", "asan-calib", "asan-cli", "asan-render", "asan-cluster", "fuzz-blocks", "fuzz-pictures", "fuzz-inputs", "fuzz-coverage", "package", "race", "tiltcost-predictions", "calibrator-cost"}
+		wanted = {"profile", "dev-build", "dev-tests", "asan-unit", "asan-calib", "asan-cli", "asan-render", "asan-cluster", "fuzz-blocks", "fuzz-pictures", "fuzz-inputs", "fuzz-coverage", "package", "race", "tiltcost-predictions", "calibrator-cost"}
 		assert wanted <= found, wanted - found
 		steps = [p["steps"] for p in presets["workflowPresets"] if p["name"] == "release-check"]
 		assert steps and steps[0][-1] == {"type": "test", "name": "release-check"}, steps
