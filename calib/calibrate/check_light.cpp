@@ -35,13 +35,19 @@ const int ENOUGH_SHARP = 20;
 std::vector<double> ShiftsOf(const Calibration& c)
 {
 	std::vector<double> shifts;
+	size_t edges = 0;
+	ForEachEdge(c.task, [&](size_t, size_t, const Edge&) { ++edges; });
+	if (c.RealLensIsUsed() && c.LensOfScenes().place_errors_px.size() == edges)
+	{
+		for (const double error : c.LensOfScenes().place_errors_px)
+			shifts.push_back(-error);
+		return shifts;
+	}
 	ForEachEdge(c.task, [&](size_t s, size_t p, const Edge& e)
 	{
 		const Point at = Reproject(c.task, c.geometry, s, p, e.board_column, e.board_row), normal = EdgeNormal(e);
 		shifts.push_back((e.x - at[0]) * normal[0] + (e.y - at[1]) * normal[1]);
 	});
-	if (c.RealLensIsUsed() && c.LensOfScenes().place_errors_px.size() == shifts.size())
-		std::transform(c.LensOfScenes().place_errors_px.begin(), c.LensOfScenes().place_errors_px.end(), shifts.begin(), [](double error) { return -error; });
 	return shifts;
 }
 

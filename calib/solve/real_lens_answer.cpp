@@ -45,11 +45,15 @@ void KeepRims(double m, RealLensNumbers& x)
 /// Rounds, each built about the last one's answer, which knows better what the lens leaves out; so many, and a few more until the last is true about its own. False: none is, or no convergence.
 bool GoRounds(RealLensFit& fit, RealLensNumbers& x, std::vector<RealLensEdge>& edges, int rounds)
 {
-	bool done = false;
-	for (int round = 0; round < rounds + FURTHER_ROUNDS && !done; ++round)
+	const auto learn = [&]
 	{
 		fit.error = ErrorOf(fit.Residuals(edges, x));
 		fit.LearnLight(x);
+	};
+	bool done = false;
+	learn();
+	for (int round = 0; round < rounds + FURTHER_ROUNDS && !done; ++round)
+	{
 		const bool last = round + 1 >= rounds;
 		const double m = x.lens[MAGNIFICATION];
 		if (!fit.Minimise(edges, x, !last))
@@ -58,10 +62,9 @@ bool GoRounds(RealLensFit& fit, RealLensNumbers& x, std::vector<RealLensEdge>& e
 		if (fit.rims_know_pupils)
 			KeepRims(m, x);
 		edges = fit.EdgesAbout(x);
-		done = last && IsTrueAbout(led, ErrorOf(fit.Residuals(edges, x)));
+		learn();
+		done = last && IsTrueAbout(led, fit.error);
 	}
-	fit.error = ErrorOf(fit.Residuals(edges, x));
-	fit.LearnLight(x);
 	return done;
 }
 
