@@ -2,8 +2,13 @@
 
 #include "calibrate/beside_real_lens.h"
 
+#include "lens/aberrations.h"
+#include "lens/angles.h"
+#include "model/tilt_angles.h"
+
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 namespace tiltcal
@@ -31,12 +36,70 @@ std::vector<double> OfEach(const std::vector<const RealLens*>& lenses, Number nu
 	return numbers;
 }
 
+/// What both lenses state of the glass.
+void WidenGlass(const RealLens& other, RealLens& told)
+{
+	for (Estimate RealLens::* number : { &RealLens::focal_length_mm, &RealLens::pupil_magnification, &RealLens::aperture_diameter_mm, &RealLens::opening_on_axis_mm })
+		Widen({ (other.*number).value }, told.*number);
+}
+
+void WidenPoint(const Point& other, const Point& value, Point& sigma)
+{
+	for (size_t axis = 0; axis < value.size(); ++axis)
+		sigma[axis] = std::hypot(sigma[axis], other[axis] - value[axis]);
+}
+
+/// Tilts by their vectors: a tilt of -1 degree towards 10 is one of 1 degree towards 190.
+void WidenTilt(const StateLens& other, StateLens& told)
+{
+	const double tilt = told.lens_tilt.value, direction = told.tilt_direction.value;
+	const auto apart = TiltVector(other.lens_tilt.value, other.tilt_direction.value) - TiltVector(tilt, direction);
+	told.lens_tilt.sigma = std::hypot(told.lens_tilt.sigma, apart.dot(TiltVector(1, direction)));
+	if (tilt != 0)
+		told.tilt_direction.sigma = std::hypot(told.tilt_direction.sigma, apart.dot(TiltVector(1, direction + 90)) / tilt * tilt_lens::DegreesPerRadian);
+}
+
+/// What stands for the fifth order in six numbers is in their third; sixteen share the light and the places out among numbers that six do not have.
+void WidenSixteen(const RealLens& six, RealLens& sixteen)
+{
+	WidenGlass(six, sixteen);
+	for (size_t k = 0; k < tilt_lens::ThirdOrderTerms; ++k)
+		Widen({ six.aberrations_mm[k].value }, sixteen.aberrations_mm[k]);
+	for (size_t i = 0; i < std::min(six.rims.size(), sixteen.rims.size()); ++i)
+	{
+		Widen({ six.rims[i].radius_mm.value }, sixteen.rims[i].radius_mm);
+		Widen({ six.rims[i].distance_mm.value }, sixteen.rims[i].distance_mm);
+	}
+	for (size_t s = 0; s < sixteen.states.size(); ++s)
+	{
+		const RealLensState& other = six.states[s];
+		RealLensState& told = sixteen.states[s];
+		Widen({ other.image_distance_mm.value }, told.image_distance_mm);
+		WidenPoint(other.principal_point, told.principal_point, told.principal_point_sigma);
+		WidenTilt(other.lens, told.lens);
+	}
+}
+
+/// Before the thin lens is widened: `six` by the thin aperture too.
+void WidenByEachOther(const Solution& thin, RealLens& six, std::optional<RealLens>& sixteen)
+{
+	const RealLens as_found = six;
+	for (Estimate RealLens::* aperture : { &RealLens::aperture_diameter_mm, &RealLens::opening_on_axis_mm })
+		Widen({ thin.aperture_diameter.value }, six.*aperture);
+	if (!sixteen || !sixteen->failure.empty())
+		return;
+	if (sixteen->used)
+		WidenGlass(*sixteen, six);
+	WidenSixteen(as_found, *sixteen);
+}
+
 }
 
 void WidenByRealLens(Calibration& c)
 {
 	if (!c.real_lens || !c.real_lens->used)
 		return;
+	WidenByEachOther(c.solution, *c.real_lens, c.scene_lens);
 	std::vector<const RealLens*> lenses{ &*c.real_lens };
 	if (c.scene_lens && c.scene_lens->used)
 		lenses.push_back(&*c.scene_lens);

@@ -13,7 +13,10 @@ namespace tiltcal
 /// Where a real lens is the answer, the thin lens that is told beside it predicts photographs left out worse: its w, f, U and d are those of a
 /// model that is known to be wrong, however little they scatter. Their sigmas are widened by how far the real lenses found put the same
 /// number elsewhere, the farther one's distance in quadrature: f and d those of the glass, w the distance of the exit pupil over the pupil
-/// magnification, U that of the thin lens that stands for it near its axis. `covariance` and `sigma_by_photographs` stay what scatters.
+/// magnification, U where the whole opening is sharpest. `covariance` and `sigma_by_photographs` stay what scatters.
+/// The real lenses are widened alike: f, pupil magnification and aperture of six and sixteen numbers by each other, the aperture by the thin lens's too, and all that
+/// the sixteen share with the six by the six, for closed loops through glass put theirs nearer to the truth (exit pupil, principal point, tilt). The tilts of the six,
+/// which are the answer, stay.
 void WidenByRealLens(Calibration& c);
 
 }

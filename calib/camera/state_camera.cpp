@@ -207,6 +207,12 @@ StateCamera ThinCamera(const Node& top, const std::string& name)
 	return c;
 }
 
+/// `lens`: real_lens or scene_lens, which may be left out or have failed.
+bool IsUsed(const Node& top, const char* lens)
+{
+	return top.json->contains(lens) && (*top.json)[lens].contains("used") && top[lens]["used"].Flag();
+}
+
 }
 
 StateCamera ReadStateCamera(const std::string& file, const std::string& name)
@@ -215,14 +221,21 @@ StateCamera ReadStateCamera(const std::string& file, const std::string& name)
 	return ThinCamera({ &json, file, "" }, name);
 }
 
+bool TakesRealLens(const std::string& file)
+{
+	const Json json = Parse(file);
+	const Node top{ &json, file, "" };
+	return IsUsed(top, "real_lens") && IsUsed(top, "scene_lens");
+}
+
 std::optional<StateCamera> ReadRealLensCamera(const std::string& file, const std::string& name)
 {
 	const Json json = Parse(file);
 	const Node top{ &json, file, "" };
-	if (!json.contains("real_lens") || !json["real_lens"].contains("used") || !top["real_lens"]["used"].Flag())
+	if (!IsUsed(top, "real_lens"))
 		return std::nullopt;
 	StateCamera c = ThinCamera(top, name);
-	const bool scene = json.contains("scene_lens") && top["scene_lens"]["used"].Flag();
+	const bool scene = IsUsed(top, "scene_lens");
 	const Node lens = top[scene ? "scene_lens" : "real_lens"], states = lens["states"];
 	states.NeedList(0);
 	for (size_t i = 0; i < states.json->size(); ++i)

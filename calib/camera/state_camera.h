@@ -22,6 +22,9 @@ StateCamera CameraOfFit(const Task& task, const Solution& solution, const Geomet
 /// The same through the real lens, where that is the file's answer: StateCamera::aberrations. Throws as ReadStateCamera.
 std::optional<StateCamera> ReadRealLensCamera(const std::string& file, const std::string& state);
 
+/// Whether the .inc files of that calibration take the real lens unless a scene says otherwise. Throws as ReadStateCamera.
+bool TakesRealLens(const std::string& file);
+
 /// A calibration.json with this one state, for ReadStateCamera. An unknown focus and an unknown aperture are null.
 std::string StateCameraJson(const StateCamera& camera, const std::string& source);
 

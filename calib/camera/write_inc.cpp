@@ -183,7 +183,7 @@ std::string CameraInc(const Calibration& c, size_t s)
 		  "// the real lens. Its tilt is its own, not quite the one that the calibration says. 0: the thin lens that comes nearest to it.\n"
 		: "// 1: the real lens, which has the tilts that the calibration says and predicts photographs of the board best.\n"
 		  "// 0: the thin lens that comes nearest to it, which is better at distances where no board stood.\n";
-	return out + lenses + "#ifndef (TiltCal_Real_Lens)\n\t#declare TiltCal_Real_Lens = 0;\n#end\n\n#if (TiltCal_Real_Lens = 0)\n\n" + thin +
+	return out + lenses + fmt::format("#ifndef (TiltCal_Real_Lens)\n\t#declare TiltCal_Real_Lens = {:d};\n#end\n\n#if (TiltCal_Real_Lens = 0)\n\n", c.SceneLensIsUsed()) + thin +
 		"\n#else\n\n" + RealLensPart(c, s) + "\n#end\n";
 }
 

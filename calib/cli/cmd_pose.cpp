@@ -25,7 +25,7 @@ struct Options
 	std::string calibration, state, points, photo, transfer = "srgb", overlay, out;
 	double unit_mm = 1;
 	int window = 9;
-	bool real_lens = false;
+	bool real_lens = false, thin_lens = false;
 };
 
 void Report(const Options& o, const PhotoPose& solved, const std::string& inc, FileSet& set)
@@ -54,7 +54,8 @@ void Run(const Options& o)
 	if (o.photo.empty() && !o.overlay.empty())
 		throw UsageError("--overlay: needs --photo, which it is drawn on");
 	const StateCamera camera = ReadStateCamera(o.calibration, o.state);
-	const std::optional<StateCamera> real = o.real_lens ? ReadRealLensCamera(o.calibration, camera.state) : std::nullopt;
+	const bool through_real = o.real_lens || (!o.thin_lens && TakesRealLens(o.calibration));
+	const std::optional<StateCamera> real = through_real ? ReadRealLensCamera(o.calibration, camera.state) : std::nullopt;
 	if (o.real_lens && !real)
 		throw UsageError(fmt::format("--real-lens: {} has no real lens for its answer: calibrate with --model lens", o.calibration));
 	const std::vector<PosePoint> points = ReadPosePoints(o.points);
@@ -73,7 +74,10 @@ void Run(const Options& o)
 			set.Text(o.overlay, PngOf(DrawPosePoints(photo, solved)));
 	}
 	if (real)
+	{
+		spdlog::info("through the real lens, for scenes with TiltCal_Real_Lens = 1{}", o.real_lens ? "" : ", as the .inc files have it; --thin-lens for the other");
 		solved.pose = SolvePose(*real, solved.points, o.points, o.unit_mm);
+	}
 	Report(o, solved, PoseInc(real ? *real : camera, solved.pose, o.unit_mm), set);
 }
 
@@ -90,7 +94,9 @@ void AddPose(CLI::App& app)
 		"without a pixel are looked for");
 	c->add_option("--window", o->window, "N pixels to each side in which a crossing is measured; less than the distance to the next one, more than the blur")
 		->capture_default_str()->check(CLI::Range(3, 100));
-	c->add_flag("--real-lens", o->real_lens, "Through the real lens, where the calibration has one: for scenes that declare TiltCal_Real_Lens = 1");
+	CLI::Option* real = c->add_flag("--real-lens", o->real_lens, "Through the real lens, where the calibration has one: for scenes that declare TiltCal_Real_Lens = 1; left out: as the "
+		"calibration's .inc files do where a scene says nothing");
+	c->add_flag("--thin-lens", o->thin_lens, "Through the thin lens: for scenes that declare TiltCal_Real_Lens = 0")->excludes(real);
 	c->add_option("--transfer", o->transfer, "Of an 8- or 16-bit photograph: srgb, linear or a gamma")->capture_default_str();
 	c->add_option("--overlay", o->overlay, "FILE.png for the photograph with the points and how far off they are; needs --photo");
 	c->add_option("--unit-mm", o->unit_mm, "Millimetres of a scene unit, such as 1000 for metres")->capture_default_str();

@@ -177,6 +177,7 @@ std::string Fine(const Calibration& c)
 	out += fmt::format("<h3>In POV-Ray</h3>\n<p>Each state has a file <code>camera-STATE.inc</code>; the world's unit is 1 mm. With the patched POV-Ray:</p>\n<pre>#include &quot;camera-{0}.inc&quot;\n"
 		"TiltCal_{0}(&lt;0, 0, -1000&gt;, &lt;0, 0, 0&gt;, y)   // location, look_at, sky\n// or the camera of a photograph, the board's first inner corner at the origin:\nTiltCal_{0}_Pose(1)</pre>\n"
 		"<p>{1}All numbers, with their sigmas, are in <code>calibration.json</code>.</p>\n", HtmlText(name),
+		c.SceneLensIsUsed() ? "The cameras are the real lens's; <code>#declare TiltCal_Real_Lens = 0;</code> before the include takes the thin one's. " :
 		c.RealLensIsUsed() ? "<code>#declare TiltCal_Real_Lens = 1;</code> before the include takes the real lens, else the cameras are the thin one's. " :
 		c.MainGeometry().distortion_terms ? "<code>#declare TiltCal_Distortion = 0;</code> before the include takes the camera that was fitted without distortion. " : "");
 	return out;

@@ -154,7 +154,9 @@ std::string RealLensText(const Calibration& c)
 	out += fmt::format("  places of edges fit to {:.3f} px, their blurs to {:.3f} px\n", lens.rms_place, lens.rms_blur);
 	if (lens.held_out > 0 && lens.held_out_thin > 0)
 		out += fmt::format("  photographs left out are predicted to {:.2f} of what is usual by it, to {:.2f} by {}\n", lens.held_out, lens.held_out_thin, NameOf(c.solution.model));
-	return out + (lens.used ? "  it was taken: the tilts are its own; the .inc files have it where TiltCal_Real_Lens is 1\n" : "  it was not taken\n");
+	if (!lens.used)
+		return out + "  it was not taken\n";
+	return out + (c.SceneLensIsUsed() ? "  it was taken: the tilts are its own\n" : "  it was taken: the tilts are its own; the .inc files have it where TiltCal_Real_Lens is 1\n");
 }
 
 /// Sixteen numbers.
@@ -165,6 +167,8 @@ std::string SceneLensText(const Calibration& c)
 	if (lens.held_out > 0 && lens.held_out_thin > 0)
 		out += fmt::format(", photographs left out to {:.2f} of what is usual (six: {:.2f})", lens.held_out, lens.held_out_thin);
 	out += "\n    " + GlassText(lens);
+	if (lens.used)
+		out += "    the .inc files have it unless TiltCal_Real_Lens is 0\n";
 	for (const RimEstimate& rim : lens.rims)
 		out += fmt::format("    rim: radius {} mm, {} mm {}\n", PlusMinus(rim.radius_mm, 2), PlusMinus({ std::abs(rim.distance_mm.value), rim.distance_mm.sigma }, 2),
 			rim.distance_mm.value > 0 ? "before the entrance pupil" : "behind the exit pupil");

@@ -2,6 +2,8 @@
 
 #include "solve/opening_points.h"
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -70,6 +72,61 @@ const Parts& PartsOf(Rings rings)
 	return rings == FEW ? few : fine;
 }
 
+/// First and second moments of points with weights.
+struct Moments
+{
+	double weight = 0;
+	Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+	Eigen::Matrix2d squares = Eigen::Matrix2d::Zero();
+
+	void Add(double x, double y, double w)
+	{
+		const Eigen::Vector2d p(x, y);
+		weight += w;
+		sum += w * p;
+		squares += w * p * p.transpose();
+	}
+	Eigen::Vector2d Mean() const { return sum / weight; }
+	Eigen::Matrix2d Covariance() const { return squares / weight - Mean() * Mean().transpose(); }
+};
+
+Moments MomentsOf(const std::vector<OpeningPoint>& points)
+{
+	Moments m;
+	for (const OpeningPoint& p : points)
+		m.Add(p.x, p.y, p.weight);
+	return m;
+}
+
+Moments MomentsOfCover()
+{
+	Moments m;
+	for (const auto& [x, y] : OpeningCover())
+		m.Add(x, y, 1);
+	return m;
+}
+
+/// Moves points to the middle and the covariance of the light that they stand for: few points lie too near to each other where a rim cuts through their parts,
+/// and the aperture that fits a blur grows by as much. Points on one line stay as they are.
+void MoveTo(const Moments& light, std::vector<OpeningPoint>& points)
+{
+	// What the cover itself differs by from a disc, of covariance 1/4, is taken off.
+	static const Moments cover = MomentsOfCover();
+	static const Eigen::Matrix2d to_disc = 0.5 * Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(cover.Covariance()).operatorInverseSqrt();
+	const Moments now = MomentsOf(points);
+	const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> from(now.Covariance()), to(to_disc * light.Covariance() * to_disc);
+	const double thinnest = 1e-4;
+	if (from.eigenvalues()[0] < thinnest || to.eigenvalues()[0] < thinnest)
+		return;
+	const Eigen::Matrix2d stretch = to.operatorSqrt() * from.operatorInverseSqrt();
+	for (OpeningPoint& p : points)
+	{
+		const Eigen::Vector2d moved = light.Mean() - cover.Mean() + stretch * (Eigen::Vector2d(p.x, p.y) - now.Mean());
+		p.x = moved.x();
+		p.y = moved.y();
+	}
+}
+
 std::vector<std::array<double, 2>> MakeCover()
 {
 	const double golden = M_PI * (3 - std::sqrt(5.0));
@@ -126,13 +183,16 @@ std::vector<OpeningPoint> OpeningRays::Through(const std::vector<tilt_lens::Rim>
 	for (const tilt_lens::Rim& rim : rims)
 		width.push_back(WidthAtRim(view, rim.distance));
 	std::vector<OpeningPoint> left(all.size(), { 0, 0, 0 });
+	Moments light;
 	for (size_t k = 0; k < image.size(); ++k)
 	{
 		double open = 1;
 		for (size_t i = 0; i < rims.size() && open > 0; ++i)
 			open *= PartWithin(HeightAtRim(object[k], image[k], rims[i].distance), rims[i].radius, width[i]);
+		const auto& [x, y] = OpeningCover()[k];
 		OpeningPoint& l = left[parts.of[k]];
-		l = { l.x + open * OpeningCover()[k][0], l.y + open * OpeningCover()[k][1], l.weight + open };
+		l = { l.x + open * x, l.y + open * y, l.weight + open };
+		light.Add(x, y, open);
 	}
 	std::vector<OpeningPoint> points;
 	double sum = 0;
@@ -147,6 +207,7 @@ std::vector<OpeningPoint> OpeningRays::Through(const std::vector<tilt_lens::Rim>
 		return all;
 	for (OpeningPoint& p : points)
 		p.weight /= sum;
+	MoveTo(light, points);
 	return points;
 }
 

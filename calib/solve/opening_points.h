@@ -71,8 +71,8 @@ class OpeningRays
 public:
 	explicit OpeningRays(const OpeningView& view);
 
-	/// OpeningPoints, each moved and lightened by what rims leave of its part of the opening; rims as in lens/optical_vignetting.h: before the entrance
-	/// pupil, or behind the exit pupil. All weights 1 in sum again; the whole opening where the rims leave nothing.
+	/// OpeningPoints, each moved and lightened by what rims leave of its part of the opening, all of them with the middle and the covariance of the light that
+	/// is left; rims as in lens/optical_vignetting.h: before the entrance pupil, or behind the exit pupil. All weights 1 in sum again; the whole opening where the rims leave nothing.
 	std::vector<OpeningPoint> Through(const std::vector<tilt_lens::Rim>& rims) const;
 
 private:

@@ -1,7 +1,7 @@
 # The steps that the demo, its experiments and the tests share. Needs TILTCAL, POVRAY and SCENE (this folder).
 #
 # calibrate_boxes(FOLDER [tiltcal options])      FOLDER/camera-<state>.inc, calibration.json
-# place_boxes(FOLDER [PHOTO] [--real-lens])      FOLDER/pose.inc: where the untilted photograph says the camera stood
+# place_boxes(FOLDER [PHOTO] [--thin-lens|--real-lens])   FOLDER/pose.inc: where the untilted photograph says the camera stood
 # render_boxes(FOLDER STATE EXR SAMPLES LOG [POV-Ray options])
 # compare_boxes(STATE EXR MATCH JSON OUT)        along the red and the green line
 # table_2_row(TABLE TITLE CAMERAS FOLDER SAMPLES [POV-Ray options])   a row of Table 2 (cmake/tables.cmake), its pictures in FOLDER

@@ -8,7 +8,7 @@ rm -rf "$work" && mkdir -p "$work" && cd "$work"
 
 "$tiltcal" detect --board 12x9 "$photo" --csv corners.csv
 awk -F, 'NR == 1 { print "u_px,v_px,x,y,z" } NR > 1 { printf "%s,%s,%d,%d,0\n", $4, $5, 25 * $2, -25 * $3 }' corners.csv >points.csv
-"$tiltcal" pose --calibration "$calibration/calibration.json" --state "$state" --points points.csv --out camera.inc | tail -2
+"$tiltcal" pose --thin-lens --calibration "$calibration/calibration.json" --state "$state" --points points.csv --out camera.inc | tail -2
 location() { sed -n "s/^[^<]*$1[ =]*<\(.*\)>;*\$/\1/p" "$2" | head -1; }
 # 1.5 mm of some 800: the calibration shares its poses between the states, whose pupils differ by parts of a millimetre.
 near() {
@@ -16,8 +16,10 @@ near() {
 }
 near "$(location '	location' camera.inc)" "$(location "_Photo_${number}_Location" "$calibration/camera-$state.inc")"
 
-# The same through the real lens, whose part of the .inc comes last.
-"$tiltcal" pose --real-lens --calibration "$calibration/calibration.json" --state "$state" --points points.csv --out real.inc | tail -2
+# The same through the real lens, whose part of the .inc comes last and is taken where nothing is said.
+"$tiltcal" pose --calibration "$calibration/calibration.json" --state "$state" --points points.csv --out real.inc | tail -2
 grep -q 'aberrations {' real.inc || { echo "no aberrations in real.inc"; exit 1; }
+"$tiltcal" pose --real-lens --calibration "$calibration/calibration.json" --state "$state" --points points.csv --out asked.inc >/dev/null
+cmp real.inc asked.inc
 tac "$calibration/camera-$state.inc" >backwards.inc
 near "$(location '	location' real.inc)" "$(location "_Photo_${number}_Location" backwards.inc)"

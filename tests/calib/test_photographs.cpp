@@ -314,7 +314,7 @@ TEST(Photographs, TheNoteSaysWhatTheIncHolds)
 	const auto declared = [&](size_t from) { return std::atof(inc.c_str() + inc.find("_Image_Distance = ", from) + 18); };
 	const size_t thin = inc.find("#if (TiltCal_Distortion)"), without = inc.find("#else", thin);
 	ASSERT_NE(without, std::string::npos);
-	EXPECT_THAT(inc.substr(0, thin), testing::HasSubstr("#ifndef (TiltCal_Real_Lens)\n\t#declare TiltCal_Real_Lens = 0;\n#end\n\n#if (TiltCal_Real_Lens = 0)"));
+	EXPECT_THAT(inc.substr(0, thin), testing::HasSubstr("#ifndef (TiltCal_Real_Lens)\n\t#declare TiltCal_Real_Lens = 1;\n#end\n\n#if (TiltCal_Real_Lens = 0)"));
 	// As many digits as the file has.
 	EXPECT_NEAR(declared(thin), json.at("image_distance_mm").get<double>(), 1e-7);
 	EXPECT_NEAR(declared(without), json.at("render").at("image_distance_mm").get<double>(), 1e-7);

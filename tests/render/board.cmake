@@ -1,9 +1,9 @@
 # The board, rendered through the calibrated camera at the pose of two photographs of one state: its corners must be
 # where the photograph has them. A mirrored axis, a wrong handedness or half a pixel cannot pass.
 #
-#   cmake -DTILTCAL= -DPOVRAY= -DCOMPARE=<compare_corners> -DSCENES= -DCALIBRATION= -DSTATE= -DWORK= [-DREAL_LENS=1] -P board.cmake
+#   cmake -DTILTCAL= -DPOVRAY= -DCOMPARE=<compare_corners> -DSCENES= -DCALIBRATION= -DSTATE= -DWORK= [-DTHIN_LENS=1] -P board.cmake
 #
-# REAL_LENS: with TiltCal_Real_Lens 1; the fourth photograph alone.
+# Through the lens that the calibration chose, the real one. THIN_LENS: with TiltCal_Real_Lens 0; the fourth photograph alone.
 cmake_minimum_required(VERSION 3.25)
 include("${SCENES}/cmake/script.cmake")
 
@@ -18,9 +18,9 @@ set(states_in_board_pov untilted plus5 minus5)
 file(REMOVE_RECURSE "${WORK}")
 file(MAKE_DIRECTORY "${WORK}")
 set(chosen 14) # the first is the most blurred one
-if(REAL_LENS)
+if(THIN_LENS)
 	set(chosen 4)
-	set(real_lens Declare=TiltCal_Real_Lens=1)
+	set(thin_lens Declare=TiltCal_Real_Lens=0)
 endif()
 file(GLOB photos "${SCENES}/boxes/photos/target/${STATE}-[${chosen}].jpg")
 list(FIND states_in_board_pov "${STATE}" number)
@@ -29,7 +29,7 @@ foreach(photo IN LISTS photos)
 	get_filename_component(name "${photo}" NAME_WE)
 	string(REGEX REPLACE "^.*-" "" photo_number "${name}") # as tiltcal numbers them
 	run(COMMAND "${POVRAY}" "+I${SCENES}/board/board.pov" "+L${SCENES}/board" "+L${CALIBRATION}" +W1800 +H1200
-		Declare=State=${number} Declare=Photo=${photo_number} Declare=TiltCal_Blur_Samples=${SAMPLES} ${real_lens}
+		Declare=State=${number} Declare=Photo=${photo_number} Declare=TiltCal_Blur_Samples=${SAMPLES} ${thin_lens}
 		-D -A +WT1 +FE "+O${WORK}/${name}.exr")
 	list(APPEND renders "${WORK}/${name}.exr")
 endforeach()
