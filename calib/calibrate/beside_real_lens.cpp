@@ -49,14 +49,20 @@ void WidenPoint(const Point& other, const Point& value, Point& sigma)
 		sigma[axis] = std::hypot(sigma[axis], other[axis] - value[axis]);
 }
 
-/// Tilts by their vectors: a tilt of -1 degree towards 10 is one of 1 degree towards 190.
-void WidenTilt(const StateLens& other, StateLens& told)
+/// By that part of the distance. Tilts by their vectors: a tilt of -1 degree towards 10 is one of 1 degree towards 190.
+void WidenTilt(const StateLens& other, double part, StateLens& told)
 {
-	const double tilt = told.lens_tilt.value, direction = told.tilt_direction.value;
-	const auto apart = TiltVector(other.lens_tilt.value, other.tilt_direction.value) - TiltVector(tilt, direction);
-	told.lens_tilt.sigma = std::hypot(told.lens_tilt.sigma, apart.dot(TiltVector(1, direction)));
-	if (tilt != 0)
-		told.tilt_direction.sigma = std::hypot(told.tilt_direction.sigma, apart.dot(TiltVector(1, direction + 90)) / tilt * tilt_lens::DegreesPerRadian);
+	const double direction = told.tilt_direction.value;
+	const auto widen = [&](Estimate StateLens::* angle)
+	{
+		const Eigen::Vector2d apart = part * (TiltVector((other.*angle).value, other.tilt_direction.value) - TiltVector((told.*angle).value, direction));
+		Estimate& tilt = told.*angle;
+		tilt.sigma = std::hypot(tilt.sigma, apart.dot(TiltVector(1, direction)));
+		return apart.dot(TiltVector(1, direction + 90));
+	};
+	widen(&StateLens::focal_plane_tilt);
+	if (const double aside = widen(&StateLens::lens_tilt); told.lens_tilt.value != 0)
+		told.tilt_direction.sigma = std::hypot(told.tilt_direction.sigma, aside / told.lens_tilt.value * tilt_lens::DegreesPerRadian);
 }
 
 /// What stands for the fifth order in six numbers is in their third; sixteen share the light and the places out among numbers that six do not have.
@@ -76,23 +82,44 @@ void WidenSixteen(const RealLens& six, RealLens& sixteen)
 		RealLensState& told = sixteen.states[s];
 		Widen({ other.image_distance_mm.value }, told.image_distance_mm);
 		WidenPoint(other.principal_point, told.principal_point, told.principal_point_sigma);
-		WidenTilt(other.lens, told.lens);
+		WidenTilt(other.lens, 1, told.lens);
+		Widen({ other.lens.focal_length.value }, told.lens.focal_length);
 	}
 }
 
-/// Before the thin lens is widened: `six` by the thin aperture too.
+/// The openings by the thin lens's aperture too: what the stop leaves open grows with the field, and each lens makes another disc of it.
 void WidenByEachOther(const Solution& thin, RealLens& six, std::optional<RealLens>& sixteen)
 {
-	const RealLens as_found = six;
-	for (Estimate RealLens::* aperture : { &RealLens::aperture_diameter_mm, &RealLens::opening_on_axis_mm })
-		Widen({ thin.aperture_diameter.value }, six.*aperture);
-	if (!sixteen || !sixteen->failure.empty())
-		return;
-	if (sixteen->used)
-		WidenGlass(*sixteen, six);
-	WidenSixteen(as_found, *sixteen);
+	const auto by_thin = [&](RealLens& lens)
+	{
+		for (Estimate RealLens::* opening : { &RealLens::aperture_diameter_mm, &RealLens::opening_on_axis_mm })
+			Widen({ thin.aperture_diameter.value }, lens.*opening);
+	};
+	if (sixteen && sixteen->failure.empty())
+	{
+		if (sixteen->used)
+			WidenGlass(*sixteen, six);
+		WidenSixteen(six, *sixteen);
+		by_thin(*sixteen);
+	}
+	by_thin(six);
 }
 
+}
+
+void WidenTilts(Calibration& c)
+{
+	if (!c.SceneLensIsUsed())
+		return;
+	// The truth may be anywhere between the two: the root of the mean square of an even distribution.
+	const double between = 1 / std::sqrt(3.0);
+	c.as_they_scatter.clear();
+	for (size_t s = 0; s < c.real_lens->states.size(); ++s)
+	{
+		StateLens& told = c.real_lens->states[s].lens;
+		c.as_they_scatter.push_back(told);
+		WidenTilt(c.scene_lens->states[s].lens, between, told);
+	}
 }
 
 void WidenByRealLens(Calibration& c)

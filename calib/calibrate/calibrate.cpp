@@ -255,7 +255,7 @@ void WidenWhereGlassShows(const CalibrateOptions& o, Calibration& c)
 		return;
 	o.log.Info("solving parts of the edges: how far they put the lens apart");
 	const Solution whole = c.solution;
-	c.before_parts = whole.states;
+	c.as_they_scatter = whole.states;
 	const std::vector<PartAnswer> parts = SolveParts(c);
 	const auto& priors = c.task.priors;
 	const bool told_f = std::any_of(priors.begin(), priors.end(), [](const Prior& p) { return p.quantity == Quantity::FOCAL_LENGTH; });
@@ -327,8 +327,9 @@ Calibration Solve(const Task& measured, const CalibrateOptions& o)
 	if (model != Model::PAPER && c.refined && o.next_photographs)
 		c.next = FindNextPhotographs(c);
 	WidenWhereGlassShows(o, c);
+	WidenTilts(c);
 	c.verdict = Judge(c);
-	// Last: the tilts, by which such a lens is graded, are the real lens's.
+	// Last: such a lens is graded by its tilts.
 	WidenByRealLens(c);
 	return c;
 }

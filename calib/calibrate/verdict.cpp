@@ -97,9 +97,11 @@ private:
 	void Tilt(size_t s)
 	{
 		const double wanted = 0.03, sigma = c.TiltOf(s).lens_tilt.sigma;
-		const bool by_model = s < c.before_parts.size() && c.before_parts[s].lens_tilt.sigma <= wanted;
+		const bool by_model = s < c.as_they_scatter.size() && c.as_they_scatter[s].lens_tilt.sigma <= wanted;
 		if (sigma > wanted)
-			Say(sigma > 0.15 ? Grade::POOR : Grade::FAIR, fmt::format("state {}: the tilt is known to {:.2f} degrees only: {}", StateName(s), sigma, by_model
+			Say(sigma > 0.15 ? Grade::POOR : Grade::FAIR, fmt::format("state {}: the tilt is known to {:.2f} degrees only: {}", StateName(s), sigma, by_model && c.RealLensIsUsed()
+				? "real lenses of six and of sixteen numbers put it apart: more photographs do not tell it better, a smaller aperture does"
+				: by_model
 				? "parts of the edges put it apart, by what a thin lens leaves out of the blur: more photographs do not tell it better, a smaller aperture does"
 				: "photograph the board in more poses, inclined so that it is sharp in one part and blurred in another"));
 		if (c.solution.states[s].chosen_by_power)

@@ -83,13 +83,13 @@ TEST(BetweenParts, TheVerdictSaysWhatMorePhotographsDoNotMend)
 		return false;
 	};
 	ASSERT_LT(c.solution.states[1].lens_tilt.sigma, 0.03);
-	c.before_parts = c.solution.states;
+	c.as_they_scatter = c.solution.states;
 	EXPECT_FALSE(remark(""));
 	c.solution.states[1].lens_tilt.sigma = 0.1;
 	EXPECT_TRUE(remark("more photographs do not"));
-	c.before_parts[1].lens_tilt.sigma = 0.08;
+	c.as_they_scatter[1].lens_tilt.sigma = 0.08;
 	EXPECT_TRUE(remark("photograph the board in more poses"));
-	c.before_parts.clear();
+	c.as_they_scatter.clear();
 	EXPECT_TRUE(remark("photograph the board in more poses"));
 	RealLens lens;
 	lens.used = true;

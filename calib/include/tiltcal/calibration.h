@@ -354,7 +354,7 @@ struct Calibration
 	UntiltedCheck untilted_check;
 	std::vector<StateLens> blur_alone;      ///< the same before the joint refinement: blur, with the geometry held
 	GeometryAlone geometry_alone;
-	std::vector<StateLens> before_parts;    ///< as they scatter, where parts of the edges put the thin lens apart and its sigmas hold that; else empty
+	std::vector<StateLens> as_they_scatter; ///< the lenses of TiltOf, where their sigmas hold more: how far parts of the edges put a thin lens apart, or sixteen numbers a real one; else empty
 	std::optional<RealLens> real_lens;      ///< where it was asked for, or the thin lens leaves aberrations over
 	/// Sixteen numbers and the rims, from `real_lens` on: what scenes are seen through where it is `used`. Its `held_out_thin` is that of `real_lens`, in its units.
 	std::optional<RealLens> scene_lens;
