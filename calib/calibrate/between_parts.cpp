@@ -52,7 +52,8 @@ void Widen(const std::vector<PartAnswer>& parts, Of distance, double& sigma)
 	double farthest = 0;
 	for (const PartAnswer& part : parts)
 	{
-		const Distance d = distance(part.solution);
+		Distance d = distance(part.solution);
+		d = { part.share * d.apart, part.own_scatter ? d.scatter : 0 };
 		// A focus at infinity is no distance to compare.
 		if (std::isfinite(d.apart) && std::isfinite(d.scatter))
 			farthest = std::max(farthest, d.apart * d.apart - d.scatter * d.scatter);

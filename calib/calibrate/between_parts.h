@@ -12,11 +12,13 @@
 namespace tiltcal
 {
 
-/// What a part of the edges says of the thin lens.
+/// What a part of the edges, or all of them read otherwise, says of the thin lens.
 struct PartAnswer
 {
 	Geometry geometry;
 	Solution solution;
+	bool own_scatter = true;   ///< false: the same edges, which scatter alike
+	double share = 1;          ///< of its distance that sigmas are to hold
 };
 
 /// The joint fit of `calibration` again, by edges, of the half of each photograph's edges that is nearer to the picture's middle, the half farther from

@@ -12,6 +12,7 @@
 #include "calibrate/check_photographs.h"
 #include "calibrate/check_untilted.h"
 #include "calibrate/exif_check.h"
+#include "calibrate/floor_shape.h"
 #include "calibrate/next_photographs.h"
 #include "calibrate/use_threads.h"
 #include "calibrate/verdict.h"
@@ -248,6 +249,17 @@ void AddBoardSize(Calibration& c)
 		}
 }
 
+/// Sigmas of a thin lens whose photographs are unsharp by themselves.
+void WidenByFloor(const CalibrateOptions& o, Calibration& c)
+{
+	if (c.solution.model == Model::PAPER || !c.refined || o.refinement == Refinement::NONE)
+		return;
+	const Solution whole = c.solution;
+	if (const std::optional<PartAnswer> other = SolveWithGaussianFloor(c))
+		for (Solution* told : { &c.solution, &c.render })
+			WidenByParts(whole, { *other }, *told);
+}
+
 /// Sigmas of a thin lens whose photographs misfit by more than noise.
 void WidenWhereGlassShows(const CalibrateOptions& o, Calibration& c)
 {
@@ -327,6 +339,7 @@ Calibration Solve(const Task& measured, const CalibrateOptions& o)
 	if (model != Model::PAPER && c.refined && o.next_photographs)
 		c.next = FindNextPhotographs(c);
 	WidenWhereGlassShows(o, c);
+	WidenByFloor(o, c);
 	WidenTilts(c);
 	c.verdict = Judge(c);
 	// Last: such a lens is graded by its tilts.
