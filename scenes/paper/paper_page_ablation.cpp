@@ -175,9 +175,9 @@ std::string ClosedLoop(const Json& closed)
 		const double truth = n.at("true"), found = n.at("found"), sigma = n.at("sigma");
 		const bool curvature = n.at("unit") == "_per_mm";
 		const double scale = curvature ? 1e6 : 1;
-		const std::string unit = n.at("unit") == "_deg" ? "°" : curvature ? "× 10⁻⁶/mm" : "mm";
+		const std::string unit = n.at("unit") == "_deg" ? "°" : curvature ? "× 10⁻⁶/mm" : n.at("unit") == "_mm" ? "mm" : "";
 		const int digits = curvature ? 1 : 4;
-		rows.push_back({ n.at("what"), Number(truth * scale, digits) + (unit == "°" ? "°" : " " + unit), tiltcal::html::WithSigma({ found * scale, sigma * scale }, unit),
+		rows.push_back({ n.at("what"), Number(truth * scale, digits) + (unit == "°" || unit.empty() ? unit : " " + unit), tiltcal::html::WithSigma({ found * scale, sigma * scale }, unit),
 			Number((found - truth) * scale, digits), Number((found - truth) / sigma, 1) });
 	}
 	return "<h3>Table 1 of the closed loop</h3>\n<p>The same calibration where the truth is known in every number, because the pictures were made by this camera model. "

@@ -137,7 +137,7 @@ Json EffectTable(const Run& run)
 	// The sets of effect-shares.cmake, and how it names them.
 	static const struct { const char *set, *title; } sets[] = { { "none", "no effect: w, d, a plane of focus" }, { "distortion", "distortion" },
 		{ "distortion+field_curvature", "… and field curvature" }, { "distortion+field_curvature+vignetting_natural", "… and natural vignetting" },
-		{ "auto", "… and rims before and behind the lens: all that is significant" } };
+		{ "auto", "… and rims before and behind the lens: all that is significant" }, { "real", "the real lens instead" } };
 	Json table = Json::array();
 	const auto add = [&](const std::string& title, const std::string& folder, const std::string& suffix)
 	{
@@ -152,9 +152,16 @@ Json EffectTable(const Run& run)
 	return table;
 }
 
+bool IsUsed(const Json& calibration, const char* lens)
+{
+	return calibration.contains(lens) && calibration.at(lens).value("used", false);
+}
+
 Json ClosedLoopTable(const Run& run)
 {
 	const Json start = ReadJson(Calibration(run, "demo/calibration")), found = ReadJson(Calibration(run, "closed/calibration"));
+	// The camera that photographed is the real lens for scenes, where there is one; its tilts are its own.
+	const bool real = IsUsed(start, "scene_lens") && IsUsed(found, "real_lens");
 	Json table;
 	table["model"] = found.at("model");
 	const auto add = [&](const std::string& name, const std::string& what, const std::string& unit, const Json& a, const Json& b, const std::string& key)
@@ -164,8 +171,18 @@ Json ClosedLoopTable(const Run& run)
 	};
 	for (const char* const state : { "plus5", "minus5" })
 	{
-		add(std::string("tilt_") + state, std::string("lens tilt, ") + state, "_deg", StateOf(start, state), StateOf(found, state), "lens_tilt");
-		add(std::string("direction_") + state, std::string("its direction, ") + state, "_deg", StateOf(start, state), StateOf(found, state), "tilt_direction");
+		const Json& camera = StateOf(real ? start.at("scene_lens") : start, state);
+		add(std::string("tilt_") + state, std::string("lens tilt, ") + state, "_deg", camera, StateOf(found, state), "lens_tilt");
+		add(std::string("direction_") + state, std::string("its direction, ") + state, "_deg", camera, StateOf(found, state), "tilt_direction");
+	}
+	if (real)
+	{
+		const Json &camera = start.at("scene_lens"), &lens = found.at(IsUsed(found, "scene_lens") ? "scene_lens" : "real_lens");
+		add("f", "focal length f", "_mm", camera, lens, "focal_length");
+		add("d", "aperture d", "_mm", camera, lens, "aperture_diameter");
+		add("m", "pupil magnification m", "", camera, lens, "pupil_magnification");
+		add("exit_pupil", "exit pupil to sensor", "_mm", StateOf(camera, "untilted"), StateOf(lens, "untilted"), "exit_pupil_to_sensor");
+		return table;
 	}
 	add("w", "image distance w", "_mm", start, found, "image_distance");
 	add("d", "aperture d", "_mm", start, found, "aperture_diameter");
