@@ -47,6 +47,12 @@ double RenderCounts::RmsError() const
 	return pixels > 0 ? std::sqrt(sum / double(pixels)) : 0.0;
 }
 
+bool RenderCounts::MayMissLight() const
+{
+	const double promised = 1.25, seen = RmsError();
+	return rare.Most() > (promised * promised - 1.0) * seen * seen * double(pixels);
+}
+
 FocusCounts CountFocus(const TiltLens& lens, const CameraVectors& camera,
                        int width, int height, int left, int top, int right, int bottom)
 {
@@ -171,8 +177,11 @@ std::string StatisticsText(const TiltLens& lens, const FocusCounts& focus, const
 		const bool least = counts.MayMissLight();
 		Append(text, "Estimated Error: %s%.5f RMS of the picture (linear), %.2f of 255 levels\n", least ? ">= " : "", rms, 255.0 * rms);
 		if(least)
-			text += "  at least: few samples met small bright lights, and pixels that stopped\n"
-			        "  early may have missed them; a larger minimum in blur_samples finds them\n";
+			text += counts.early > 0 ?
+			        "  at least: few samples met small bright lights, and pixels that stopped\n"
+			        "  early may have missed them; a larger minimum in blur_samples finds them\n" :
+			        "  at least: few samples met small bright lights, and pixels beside them may\n"
+			        "  have met none; more blur_samples find them\n";
 		if(denoised_rms >= 0.0)
 			Append(text, "  before denoise: %.5f\n", sampled);
 	}

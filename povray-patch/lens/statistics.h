@@ -5,6 +5,7 @@
 #ifndef TILT_LENS_STATISTICS_H
 #define TILT_LENS_STATISTICS_H
 
+#include <cmath>
 #include <cstdint>
 #include <string>
 
@@ -14,18 +15,34 @@
 namespace tilt_lens
 {
 
-/// How much of the spread of samples rests on one or two bright ones a pixel. Where much of it
-/// does, pixels are likely that have the same light and no sample of it.
+/// Light that few samples of a pixel meet, and other pixels may have met with none, after
+/// Horvitz and Thompson: a pixel whose first n samples met light that one sample in 1/p meets stands for
+/// (1 - p)^n / (1 - (1 - p)^n) like it whose first n did not. Those of them that went on for their
+/// neighbours' sake, and met it later, are known, and taken off.
 struct RareLight
 {
-	double spread = 0.0;            ///< sum of variances of the means, as of independent samples
-	double rests_on_few = 0.0;      ///< the part of it
+	double missed = 0.0;            ///< sum over pixels of the squared light
+	double variance = 0.0;          ///< of that sum
 
 	RareLight& operator+=(const RareLight& o)
 	{
-		spread += o.spread;
-		rests_on_few += o.rests_on_few;
+		missed += o.missed;
+		variance += o.variance;
 		return *this;
+	}
+
+	/// What it may be, by one standard deviation.
+	double Most() const { return missed + std::sqrt(variance); }
+
+	/// Of a pixel: `light` that one of 1/p samples brings to it, and whether one of the first n brought it.
+	static RareLight Of(double light, double p, int n, bool met)
+	{
+		const double none = std::pow(1.0 - p, n);
+		const double square = light * light, like_it = none / (1.0 - none);
+		RareLight r;
+		r.missed = square * (met ? like_it : -1.0);
+		r.variance = met ? square * square * like_it * (1.0 + like_it) : 0.0;
+		return r;
 	}
 };
 
@@ -65,12 +82,9 @@ struct RenderCounts
 		rare += light;
 	}
 
-	/// Whether the error is likely larger than RmsError says: pixels that stopped early, in a
-	/// picture whose spread rests on few samples, may have missed the light that others caught.
-	bool MayMissLight() const { return (early > 0) && (rare.rests_on_few > RareShare * rare.spread); }
-	/// Scenes without such lights have up to 0.2 where pixels stop at 4 samples, and 0.05 at 16;
-	/// those with them 0.5 to 1 (tests/render/statistics.sh, bound).
-	static constexpr double RareShare = 0.25;
+	/// Whether the error may be larger than RmsError says by more than is promised of it, a quarter,
+	/// for light that was missed.
+	bool MayMissLight() const;
 
 	RenderCounts& operator+=(const RenderCounts& o);
 

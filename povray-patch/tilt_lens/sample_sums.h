@@ -136,19 +136,24 @@ struct SampleSums
 		return (last >= 0.0) && (last <= 1.0) ? change : Clipped(earlier[j][channel]) - Clipped(earlier[j + 1][channel]);
 	}
 
-	/// The pixel's samples as evidence of rare bright lights.
-	RareLight Rarity() const
+	/// The pixel's samples as evidence of rare bright lights, which pixels with no more than the `first`
+	/// may have missed: its brightest sample is farther out than that of as many normal ones would be.
+	RareLight Rarity(int first) const
 	{
-		RareLight r;
-		const double variance = count > 1 ? Variance() : 0.0;
-		const double above = brightest - std::max(sum[0], std::max(sum[1], sum[2])) / count;
-
-		r.spread = variance / count;
-		// Of k equal bright samples among dark ones each makes a k-th of the spread.
-		r.rests_on_few = above * above * FewBrightSamples > variance * (count - 1) ? r.spread : 0.0;
-		return r;
+		if(count < 2)
+			return RareLight();
+		const int i = sum[0] >= sum[1] && sum[0] >= sum[2] ? 0 : sum[1] >= sum[2] ? 1 : 2;
+		const double mean = sum[i] / count, above = brightest - mean, variance = Variance();
+		if(!(above * above > 2.0 * std::log(double(count)) * variance) || !(variance > 0.0))
+			return RareLight();
+		// As of bright samples that are alike among dark ones that are, a part p of all.
+		const double odds = variance * (count - 1) / (above * above * count), p = odds / (1.0 + odds);
+		const double bright = above * (1.0 + odds), dark = mean - p * bright;
+		int j = 0;
+		while((j < ChangesKept) && (earlier_counts[j] > first))
+			j++;
+		return RareLight::Of(Clipped(mean) - Clipped(dark), p, std::min(first, count), (count <= first) || (std::fabs(earlier[j][i] - dark) * first > 0.5 * bright));
 	}
-	static constexpr double FewBrightSamples = 2.5;
 
 	/// The same for a pixel that may have stopped early because its few samples agreed
 	/// by chance: a part of what `variance`, that of a sample in the pixels around, lets

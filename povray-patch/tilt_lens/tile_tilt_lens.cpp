@@ -18,7 +18,6 @@
 namespace pov
 {
 
-using tilt_lens::RareLight;
 using tilt_lens::SampleLevel;
 using tilt_lens::TilePixel;
 
@@ -76,7 +75,7 @@ void TracePixel::TraceTiltLensTile(int left, int top, int right, int bottom, int
 				RecordTiltLensChannels(*pixel, width, height);
 		}
 		threadData->tiltLensCounts.AddPixel(pixel->sums.count, pixel->sums.Changes(pixel->neighbourhood_variance));
-		threadData->tiltLensCounts.AddLight(pixel->sums.count * rays - pixel->sums.stopped, adapts ? pixel->sums.Rarity() : RareLight(), pixel->sums.count < lens.levels.back().samples);
+		threadData->tiltLensCounts.AddLight(pixel->sums.count * rays - pixel->sums.stopped, pixel->sums.Rarity(lens.levels.front().samples), pixel->sums.count < lens.levels.back().samples);
 	}
 	threadData->Stats()[Number_Of_Pixels] += colours.size();
 

@@ -3,6 +3,7 @@
 // The statistics and the preview of focus, without POV-Ray.
 
 #include <cmath>
+#include <random>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -98,20 +99,49 @@ TEST(Statistics, TextNamesTheFigures)
 TEST(Statistics, EstimateIsABoundWhereLightMayBeMissed)
 {
 	const TiltLens lens = Resolved(60.0, 90.0, 8.0, 0.5);
-	const auto text = [&](double spread, double few, bool early)
+	const auto text = [&](double missed, double sigma, bool early)
 	{
 		RenderCounts c;
 		c.AddPixel(16, Halving(1e-6));
-		c.AddLight(16, { spread, few }, early);
+		c.AddLight(16, { missed, sigma * sigma }, early);
 		return StatisticsText(lens, CountFocus(lens, Camera, 8, 6, 0, 0, 7, 5), c);
 	};
-	EXPECT_THAT(text(1.0, 0.5, true), HasSubstr("Estimated Error: >= 0.00100 RMS"));
-	EXPECT_THAT(text(1.0, 0.5, true), HasSubstr("  at least: few samples met small bright lights"));
-	for(const std::string& sure : { text(1.0, 0.5, false), text(1.0, 0.2, true), text(0.0, 0.0, true) })
+	// A quarter more than 0.001: 0.5625e-6 of its square.
+	EXPECT_THAT(text(0.57e-6, 0.0, true), HasSubstr("Estimated Error: >= 0.00100 RMS"));
+	EXPECT_THAT(text(0.3e-6, 0.3e-6, true), HasSubstr("  early may have missed them"));
+	EXPECT_THAT(text(0.57e-6, 0.0, false), HasSubstr("  have met none; more blur_samples find them"));
+	for(const std::string& sure : { text(0.55e-6, 0.0, true), text(0.3e-6, 0.2e-6, true), text(-1e-6, 1e-6, true), text(0.0, 0.0, true) })
 	{
 		EXPECT_THAT(sure, HasSubstr("Estimated Error: 0.00100 RMS"));
 		EXPECT_THAT(sure, testing::Not(HasSubstr("at least")));
 	}
+}
+
+// Horvitz and Thompson: of pixels that light meets with one of 1/p samples those that met it in the first n, weighted, stand for the others.
+TEST(Statistics, MissedLightIsThatOfThePixelsThatMetNone)
+{
+	const double p = 0.03, light = 0.2;
+	const int n = 8, pixels = 20000;
+	std::mt19937 random(1);
+	std::bernoulli_distribution meets(p);
+	RareLight sum;
+	double missed = 0.0;
+	for(int k = 0; k < pixels; k++)
+	{
+		bool met = false;
+		for(int i = 0; i < n; i++)
+			met |= meets(random);
+		missed += met ? 0.0 : light * light;
+		if(met)
+			sum += RareLight::Of(light, p, n, true);
+	}
+	// Four of its own standard deviations, beside which those of the count are small.
+	EXPECT_NEAR(sum.missed, missed, 4.0 * std::sqrt(sum.variance));
+	EXPECT_LT(std::sqrt(sum.variance), 0.03 * missed);
+	// One that went on, and met it later, is no longer missing.
+	const double before = sum.missed;
+	sum += RareLight::Of(light, p, n, false);
+	EXPECT_DOUBLE_EQ(sum.missed, before - light * light);
 }
 
 // The blur of the preview against the definition, w d |1/U - 1/z| in pixels.
