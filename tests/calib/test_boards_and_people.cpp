@@ -125,7 +125,7 @@ TEST(BoardsAndPeople, APrintThatIsOffInOneAxisIsFound)
 
 TEST(BoardsAndPeople, ABentBoardIsFound)
 {
-	for (const double bend : { -1.0 })
+	for (const double bend : { -1.0, 1.0 })
 	{
 		const Shape bent{ 0, bend };
 		const Calibration c = Calibrate(Named({ Photograph("untilted", Lens(), NoiseOf(6), 6, 0, bent), Photograph("tilted", Tilted(5), NoiseOf(7), 6, 0, bent) }), PLANE);

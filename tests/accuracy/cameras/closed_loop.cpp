@@ -93,8 +93,10 @@ void Compare(const Camera& camera, const Calibration& c, Answer& a)
 		a.deviations.push_back({ "cx " + c.task.states[s].name, 0.5 * (camera.width - 1), g.principal_point[0], g.principal_point_sigma[0] });
 		a.deviations.push_back({ "cy " + c.task.states[s].name, 0.5 * (camera.height - 1), g.principal_point[1], g.principal_point_sigma[1] });
 	}
-	if (c.geometry.distortion_terms > 0 || camera.k1 != 0)
+	if (c.geometry.distortion_terms > 0)
 		a.deviations.push_back({ "k1", camera.k1, c.geometry.distortion[0], c.geometry.distortion_sigma[0] });
+	else if (camera.k1 != 0)
+		a.not_told.push_back("k1");
 }
 
 }

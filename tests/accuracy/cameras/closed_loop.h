@@ -10,6 +10,7 @@
 
 #include <tiltcal/calibrate.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,8 @@ struct Deviation
 {
 	std::string name;
 	double truth = 0, found = 0, sigma = 0;
-	double InSigmas() const { return sigma > 0 ? (found - truth) / sigma : 0; }
+	/// A sigma of 0 promises the truth.
+	double InSigmas() const { return sigma > 0 ? (found - truth) / sigma : found == truth ? 0 : std::copysign(HUGE_VAL, found - truth); }
 };
 
 struct Answer
@@ -29,6 +31,7 @@ struct Answer
 	std::string refusal;                 ///< empty: there is an answer
 	tiltcal::Calibration calibration;
 	std::vector<Deviation> deviations;
+	std::vector<std::string> not_told;   ///< what the camera has and the answer leaves out, as not significant
 	double tilt_error = 0;               ///< greatest length of a difference of tilt vectors, degrees
 };
 

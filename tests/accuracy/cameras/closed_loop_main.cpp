@@ -20,7 +20,7 @@ using namespace cameras;
 struct Options
 {
 	std::vector<std::string> only, lights{ "snr200" };
-	int seeds = 1, random = 0, first = 0;
+	int seeds = 1, random = 0, first = 0, refused = 0;
 	std::string work = "closed-loop", out, glass;
 	double focal_length = 0, f_number = 0;
 	bool table = false;
@@ -60,6 +60,8 @@ void Print(const Camera& camera, const Light& light, const Answer& a)
 		c.geometry.distortion_terms, c.geometry.shared_poses ? ", shared" : "");
 	for (const Deviation& d : a.deviations)
 		std::printf("    %-20s %12.5f  %12.5f +- %9.5f  %+6.2f\n", d.name.c_str(), d.truth, d.found, d.sigma, d.InSigmas());
+	for (const std::string& name : a.not_told)
+		std::printf("    %-20s not told: not significant\n", name.c_str());
 	for (const auto& remark : c.verdict.remarks)
 		std::printf("    %s: %s\n", tiltcal::NameOf(remark.grade), remark.text.c_str());
 }
@@ -114,6 +116,7 @@ try
 	app.add_option("--out", o.out, "Page with the results, Markdown");
 	app.add_option("--least", o.least, "Exit code 1 when a smaller share of the numbers is inside 2 sigma");
 	app.add_option("--most", o.most, "Exit code 1 when a number is further off, in sigmas");
+	app.add_option("--refused", o.refused, "Exit code 1 when more cameras are refused");
 	CLI11_PARSE(app, argc, argv);
 	std::vector<Result> results;
 	const bool nothing_asked = o.only.empty() && o.random == 0;
@@ -126,7 +129,10 @@ try
 		std::printf("%-16s inside 2 sigma %4d of %4d, rms %.2f, mean %+.2f\n", name.c_str(), t.inside, t.all, t.rms, t.mean);
 	const Coverage all = CoverageOfAll(results);
 	std::printf("%-16s inside 2 sigma %4d of %4d, %.1f %%, the worst %.1f sigma\n", "all", all.inside, all.all, 100 * all.Share(), all.worst);
-	return all.all > 0 && all.Share() >= o.least && all.worst <= o.most ? 0 : 1;
+	const int refused = Refused(results);
+	if (refused > 0)
+		std::printf("%d of %zu cameras refused, %d allowed\n", refused, results.size(), o.refused);
+	return all.all > 0 && all.Share() >= o.least && all.worst <= o.most && refused <= o.refused ? 0 : 1;
 }
 catch (const std::exception& e)
 {

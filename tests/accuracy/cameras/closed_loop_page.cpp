@@ -28,7 +28,7 @@ void Add(const Deviation& d, Coverage& c)
 	const double z = d.InSigmas();
 	c.inside += std::abs(z) < 2;
 	c.rms += std::min(100.0, z * z);
-	c.mean += z;
+	c.mean += std::clamp(z, -10.0, 10.0);   // one that is far off is not to hide the others
 	c.worst = std::max(c.worst, std::abs(z));
 	++c.all;
 }
@@ -42,6 +42,26 @@ void Finish(Coverage& c)
 std::string Row(const std::string& name, const Coverage& c)
 {
 	return fmt::format("| {} | {} of {} | {:.0f} % | {:.2f} | {:+.2f} | {:.1f} |\n", name, c.inside, c.all, 100 * c.Share(), c.rms, c.mean, c.worst);
+}
+
+std::vector<std::string> LightsOf(const std::vector<Result>& results)
+{
+	std::vector<std::string> lights;
+	for (const Result& r : results)
+		if (std::find(lights.begin(), lights.end(), r.light) == lights.end())
+			lights.push_back(r.light);
+	return lights;
+}
+
+Coverage CoverageOfLight(const std::vector<Result>& results, const std::string& light)
+{
+	Coverage of_it;
+	for (const Result& r : results)
+		if (r.light == light)
+			for (const Deviation& d : r.answer.deviations)
+				Add(d, of_it);
+	Finish(of_it);
+	return of_it;
 }
 
 std::string RowOf(const Result& r)
@@ -85,6 +105,11 @@ Coverage CoverageOfAll(const std::vector<Result>& results)
 	return all;
 }
 
+int Refused(const std::vector<Result>& results)
+{
+	return int(std::count_if(results.begin(), results.end(), [](const Result& r) { return !r.answer.refusal.empty(); }));
+}
+
 void WritePage(const std::string& file, const std::string& command, const std::vector<Result>& results)
 {
 	std::string page = "# Simulated cameras, calibrated and held against the truth\n\nBy `" + command + "`: exact photographs, developed as the light's name says, measured and calibrated. "
@@ -92,7 +117,10 @@ void WritePage(const std::string& file, const std::string& command, const std::v
 		"| number | inside 2 σ | | RMS, σ | mean, σ | worst, σ |\n|---|---|---|---|---|---|\n";
 	for (const auto& [kind, c] : CoverageByKind(results))
 		page += Row(kind, c);
+	for (const std::string& light : LightsOf(results))
+		page += Row("in the light " + light, CoverageOfLight(results, light));
 	page += Row("**all**", CoverageOfAll(results));
+	page += fmt::format("\n{} of {} cameras were refused.\n", Refused(results), results.size());
 	page += "\n| camera | light | verdict, model | tilt error, degrees | corners, px RMS | inside 2 σ | worst, σ |\n|---|---|---|---|---|---|---|\n";
 	for (const Result& r : results)
 		page += RowOf(r);

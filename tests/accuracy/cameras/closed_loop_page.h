@@ -32,6 +32,9 @@ struct Coverage
 std::vector<std::pair<std::string, Coverage>> CoverageByKind(const std::vector<Result>& results);
 Coverage CoverageOfAll(const std::vector<Result>& results);
 
+/// How many cameras the calibrator refused.
+int Refused(const std::vector<Result>& results);
+
 /// Markdown; written whole or not at all.
 void WritePage(const std::string& file, const std::string& command, const std::vector<Result>& results);
 
