@@ -41,7 +41,13 @@ std::string Bars(const Json& states)
 	double most = 0;
 	for (const char* const state : STATES)
 		for (const auto& area : AREAS)
-			most = std::max(most, double(states.at(state).at(area.key).at("squares").at("whole")));
+		{
+			const Json& squares = states.at(state).at(area.key).at("squares");
+			double drawn = 0;
+			for (const auto& part : PARTS)
+				drawn += std::max(0.0, double(squares.at(part.key)));
+			most = std::max({ most, drawn, double(squares.at("whole")) });
+		}
 	const double left = 110, width = 900, height = 20;
 	double y = 0;
 	std::string bars;
@@ -70,7 +76,7 @@ std::string Bars(const Json& states)
 	for (const auto& part : PARTS)
 		key += fmt::format("<span><i style=\"color:{}\">■</i> {}</span> ", part.colour, part.title);
 	return key + fmt::format("</p>\n<svg class=\"bars\" viewBox=\"0 0 1130 {:.0f}\" role=\"img\" aria-label=\"Squared errors, by state and part\">\n", y + 6) + bars
-		+ "</svg>\n<p><small>Squared error, levels² of 255; what bars show are the table’s squares. A part below zero is drawn as nothing.</small></p>\n";
+		+ "</svg>\n<p><small>Squared error, levels² of 255; what bars show are the table’s squares. A part below zero is drawn as nothing; a bar longer than its sum has a closed loop that scatters by more than photograph and render differ.</small></p>\n";
 }
 
 std::string PartsTable(const Json& state)
