@@ -6,6 +6,8 @@
 #include "support/traced_picture.h"
 #include <tiltcal/error.h>
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <filesystem>
 #include <tuple>
@@ -89,16 +91,26 @@ void Compare(const Camera& camera, const Calibration& c, Answer& a)
 	{
 		const tiltcal::StateGeometry& g = c.geometry.states[s];
 		if (g.principal_point_fixed)
+		{
+			a.not_told.push_back("principal point " + c.task.states[s].name + ": held at the picture's centre");
 			continue;
+		}
 		a.deviations.push_back({ "cx " + c.task.states[s].name, 0.5 * (camera.width - 1), g.principal_point[0], g.principal_point_sigma[0] });
 		a.deviations.push_back({ "cy " + c.task.states[s].name, 0.5 * (camera.height - 1), g.principal_point[1], g.principal_point_sigma[1] });
 	}
 	if (c.geometry.distortion_terms > 0)
 		a.deviations.push_back({ "k1", camera.k1, c.geometry.distortion[0], c.geometry.distortion_sigma[0] });
-	else if (camera.k1 != 0)
-		a.not_told.push_back("k1");
+	else
+		a.not_told.push_back(fmt::format("k1: not significant, taken to be 0 where {:.5f} is true", camera.k1));
 }
 
+}
+
+double Deviation::InSigmas() const
+{
+	if (std::isfinite(found) && sigma > 0 && std::isfinite(sigma))
+		return (found - truth) / sigma;
+	return sigma == 0 && found == truth ? 0 : found < truth ? -HUGE_VAL : HUGE_VAL;
 }
 
 Negatives Photograph(const Camera& camera, unsigned seed)

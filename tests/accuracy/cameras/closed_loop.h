@@ -10,7 +10,6 @@
 
 #include <tiltcal/calibrate.h>
 
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -22,16 +21,17 @@ struct Deviation
 {
 	std::string name;
 	double truth = 0, found = 0, sigma = 0;
-	/// A sigma of 0 promises the truth.
-	double InSigmas() const { return sigma > 0 ? (found - truth) / sigma : found == truth ? 0 : std::copysign(HUGE_VAL, found - truth); }
+	/// A sigma of 0 promises the truth, and one that is no number promises nothing that could be kept.
+	double InSigmas() const;
 };
 
 struct Answer
 {
 	std::string refusal;                 ///< empty: there is an answer
+	bool photographed = true;            ///< false: no board could be photographed, `refusal` says why
 	tiltcal::Calibration calibration;
 	std::vector<Deviation> deviations;
-	std::vector<std::string> not_told;   ///< what the camera has and the answer leaves out, as not significant
+	std::vector<std::string> not_told;   ///< numbers that the calibration did not find, with why: they count neither as inside nor as outside
 	double tilt_error = 0;               ///< greatest length of a difference of tilt vectors, degrees
 };
 

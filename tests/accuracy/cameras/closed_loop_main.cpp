@@ -20,11 +20,12 @@ using namespace cameras;
 struct Options
 {
 	std::vector<std::string> only, lights{ "snr200" };
-	int seeds = 1, random = 0, first = 0, refused = 0;
+	std::vector<std::string> refused;
+	int seeds = 1, random = 0, first = 0;
 	std::string work = "closed-loop", out, glass;
 	double focal_length = 0, f_number = 0;
 	bool table = false;
-	double least = 0, most = HUGE_VAL;
+	double hold = 0, most = HUGE_VAL;
 
 	std::string Command() const
 	{
@@ -43,16 +44,18 @@ struct Options
 			words += fmt::format(" --f-number {:g}", f_number);
 		for (const std::string& light : lights)
 			words += " --light " + light;
+		for (const std::string& name : refused)
+			words += " --refused '" + name + "'";
 		return seeds == 1 ? words : words + fmt::format(" --seeds {}", seeds);
 	}
 };
 
-void Print(const Camera& camera, const Light& light, const Answer& a)
+void Print(const Camera& camera, const std::string& light, const Answer& a)
 {
-	std::printf("%-32s %-12s ", camera.name.c_str(), light.name.c_str());
+	std::printf("%-32s %-12s ", camera.name.c_str(), light.c_str());
 	if (!a.refusal.empty())
 	{
-		std::printf("refused: %s\n", a.refusal.c_str());
+		std::printf("%s: %s\n", a.photographed ? "refused" : "not photographed", a.refusal.c_str());
 		return;
 	}
 	const auto& c = a.calibration;
@@ -61,9 +64,18 @@ void Print(const Camera& camera, const Light& light, const Answer& a)
 	for (const Deviation& d : a.deviations)
 		std::printf("    %-20s %12.5f  %12.5f +- %9.5f  %+6.2f\n", d.name.c_str(), d.truth, d.found, d.sigma, d.InSigmas());
 	for (const std::string& name : a.not_told)
-		std::printf("    %-20s not told: not significant\n", name.c_str());
+		std::printf("    not told: %s\n", name.c_str());
 	for (const auto& remark : c.verdict.remarks)
 		std::printf("    %s: %s\n", tiltcal::NameOf(remark.grade), remark.text.c_str());
+}
+
+void Keep(const Options& o, const Result& result, std::vector<Result>& results)
+{
+	Print(result.camera, result.light, result.answer);
+	std::fflush(stdout);
+	results.push_back(result);
+	if (!o.out.empty())
+		WritePage(o.out, o.Command(), results, o.refused); // whole after every camera: this takes long
 }
 
 void Run(const Options& o, Camera camera, unsigned pose_seed, std::vector<Result>& results)
@@ -80,7 +92,11 @@ void Run(const Options& o, Camera camera, unsigned pose_seed, std::vector<Result
 	}
 	catch (const std::exception& e)
 	{
-		std::printf("%s: %s\n", camera.name.c_str(), e.what());
+		Answer none;
+		none.refusal = e.what();
+		none.photographed = false;
+		for (const std::string& name : o.lights)
+			Keep(o, { camera, name, none }, results);
 		return;
 	}
 	for (const std::string& name : o.lights)
@@ -88,11 +104,7 @@ void Run(const Options& o, Camera camera, unsigned pose_seed, std::vector<Result
 		{
 			const Light light = LightOf(name);
 			const Answer a = CloseTheLoop(negatives, light, unsigned(k + 1), o.work);
-			Print(negatives.camera, light, a);
-			std::fflush(stdout);
-			results.push_back({ negatives.camera, name, a });
-			if (!o.out.empty())
-				WritePage(o.out, o.Command(), results); // whole after every camera: this takes long
+			Keep(o, { negatives.camera, name, a }, results);
 		}
 }
 
@@ -114,9 +126,9 @@ try
 	app.add_option("--f-number", o.f_number, "Of all cameras, in place of their own");
 	app.add_option("--work", o.work, "Folder for the photographs");
 	app.add_option("--out", o.out, "Page with the results, Markdown");
-	app.add_option("--least", o.least, "Exit code 1 when a smaller share of the numbers is inside 2 sigma");
+	app.add_option("--hold", o.hold, "Exit code 1 when fewer numbers are inside 2 sigma than a true share of so much leaves once in a thousand by chance")->check(CLI::Range(0.0, 1.0));
 	app.add_option("--most", o.most, "Exit code 1 when a number is further off, in sigmas");
-	app.add_option("--refused", o.refused, "Exit code 1 when more cameras are refused");
+	app.add_option("--refused", o.refused, "A set that is expected to be refused, or not to be photographed: what its camera and light begin with ('45 mm at infinity', 'random 3, snr20'). Any other without an answer: exit code 1");
 	CLI11_PARSE(app, argc, argv);
 	std::vector<Result> results;
 	const bool nothing_asked = o.only.empty() && o.random == 0;
@@ -129,10 +141,13 @@ try
 		std::printf("%-16s inside 2 sigma %4d of %4d, rms %.2f, mean %+.2f\n", name.c_str(), t.inside, t.all, t.rms, t.mean);
 	const Coverage all = CoverageOfAll(results);
 	std::printf("%-16s inside 2 sigma %4d of %4d, %.1f %%, the worst %.1f sigma\n", "all", all.inside, all.all, 100 * all.Share(), all.worst);
-	const int refused = Refused(results);
-	if (refused > 0)
-		std::printf("%d of %zu cameras refused, %d allowed\n", refused, results.size(), o.refused);
-	return all.all > 0 && all.Share() >= o.least && all.worst <= o.most && refused <= o.refused ? 0 : 1;
+	const int least = LeastInside(all.all, o.hold);
+	if (o.hold > 0)
+		std::printf("%-16s at least %d: of a true share of %g, fewer once in a thousand\n", "", least, o.hold);
+	const Refusals refusals = RefusalsOf(results, o.refused);
+	for (const Result* r : refusals.unexpected)
+		std::printf("without an answer, which was not expected: %s\n", NameOf(*r).c_str());
+	return all.all > 0 && all.inside >= least && all.worst <= o.most && refusals.unexpected.empty() ? 0 : 1;
 }
 catch (const std::exception& e)
 {

@@ -20,11 +20,12 @@ struct Result
 	Answer answer;
 };
 
-/// Of all numbers found, with what they miss the truth by.
+/// Of all numbers that are told, with what they miss the truth by.
 struct Coverage
 {
 	int inside = 0, all = 0;   ///< inside 2 sigma
-	double rms = 0, mean = 0, worst = 0;   ///< sigmas; squares count 100 at most
+	int not_told = 0;          ///< left out of `all`
+	double rms = 0, mean = 0, worst = 0;   ///< sigmas; each counts 10 at most, but for the worst
 	double Share() const { return all ? double(inside) / all : 0; }
 };
 
@@ -32,11 +33,22 @@ struct Coverage
 std::vector<std::pair<std::string, Coverage>> CoverageByKind(const std::vector<Result>& results);
 Coverage CoverageOfAll(const std::vector<Result>& results);
 
-/// How many cameras the calibrator refused.
-int Refused(const std::vector<Result>& results);
+/// Of `all` independent numbers, each inside with the probability `share`, fewer than this are so once in a thousand: the binomial distribution. Of numbers that
+/// hang together, as those of one camera do, more often.
+int LeastInside(int all, double share);
+
+/// Camera and light, by which a refusal is expected, and one that is not.
+std::string NameOf(const Result& result);
+
+/// Those without an answer, and among them those whose name begins with none of `expected`.
+struct Refusals
+{
+	std::vector<const Result*> all, unexpected;
+};
+Refusals RefusalsOf(const std::vector<Result>& results, const std::vector<std::string>& expected);
 
 /// Markdown; written whole or not at all.
-void WritePage(const std::string& file, const std::string& command, const std::vector<Result>& results);
+void WritePage(const std::string& file, const std::string& command, const std::vector<Result>& results, const std::vector<std::string>& expected_refusals);
 
 }
 
