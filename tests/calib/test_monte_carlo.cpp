@@ -45,6 +45,13 @@ Task Photographs(const Noise& noise)
 	return task;
 }
 
+/// Of the plane in focus, degrees: its normal is n/f - e_z/w, as Scheimpflug and Hinge lines have it.
+double PlaneTilt(const Lens& lens)
+{
+	const double tilt = lens.tilt * M_PI / 180;
+	return std::atan2(std::sin(tilt) / lens.f, std::cos(tilt) / lens.f - 1 / lens.w) * 180 / M_PI;
+}
+
 TEST(MonteCarlo, TrueValuesAreInsideTwoSigmaAsOftenAsTheyShould)
 {
 	// From the noise-free answer on, so that 200 sets take seconds.
@@ -65,6 +72,7 @@ TEST(MonteCarlo, TrueValuesAreInsideTwoSigmaAsOftenAsTheyShould)
 		count("C", s.field_curvature, lens.curvature);
 		count("lens tilt", a.lens_tilt, tilted.tilt);
 		count("direction", a.tilt_direction, tilted.direction);
+		count("plane tilt", a.focal_plane_tilt, PlaneTilt(tilted));
 		count("U tilted", a.focus_distance, tilted.FocusDistance());
 		count("principal point", { g.states[1].principal_point[0], g.states[1].principal_point_sigma[0] }, lens.cx);
 		count("pose", { g.states[0].poses[1][5], g.states[0].pose_sigmas[1][5] }, PosesOfPhotographs(3)[1][5]);
