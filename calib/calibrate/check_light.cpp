@@ -29,6 +29,11 @@ const double CERTAIN = 3;   // sigmas
 /// error of the edge's shape: 0.04 px of 13 are 1 px².
 const double SHARP = 4;
 const int ENOUGH_SHARP = 20;
+/// What sharpening takes off the squares of blurs falls from narrow ones to nothing at wide ones; what the fit sees of it lies between: narrow ones miss by up to so many times that.
+const double MOST_OF_SHARPENING = 2;
+/// Relative change of a blur's square, over the bend that is seen: a tone curve makes blurs, and the aperture, wrong by 1.7 times its bend
+/// (closed_loop --random 1 --first 3 --light tone-curve: 8 % and 0.047), squares by twice that.
+const double WIDTH_OF_BEND = 3.5;
 
 /// Of every edge, from where the lens puts it to where it was measured, to the bright side, px. By the real lens where that is the answer: what it makes of coma would be
 /// taken for a tone curve's work where the edges that were measured have their bright sides on one side more often than on the other.
@@ -110,6 +115,23 @@ LightCheck CheckLight(const Calibration& c)
 	return light;
 }
 
+bool SharpeningIsSeen(const LightCheck& light) { return light.sharpening.value > SHARPENED && light.sharpening.value > CERTAIN * light.sharpening.sigma; }
+
+bool BendIsSeen(const LightCheck& light) { return std::abs(light.bend.value) > BENT && std::abs(light.bend.value) > CERTAIN * light.bend.sigma; }
+
+bool LightMayExplain(const Calibration& c, const PhotographCheck& photograph)
+{
+	const double sharpened = SharpeningIsSeen(c.light) ? c.light.sharpening.value : 0, bent = BendIsSeen(c.light) ? std::abs(c.light.bend.value) : 0;
+	double misfit = 0, light = 0;
+	for (const Edge& e : c.task.states[photograph.state].photos[photograph.photo].edges)
+	{
+		const double predicted = PredictedBlur(c, photograph.state, photograph.photo, e);
+		misfit += std::pow(predicted * std::abs(predicted) - e.blur * std::abs(e.blur), 2);
+		light += std::pow(MOST_OF_SHARPENING * sharpened + WIDTH_OF_BEND * bent * e.blur * e.blur, 2);
+	}
+	return misfit < light;
+}
+
 std::vector<Remark> JudgeLight(const LightCheck& light)
 {
 	// Clipping bends and steepens edges too.
@@ -117,11 +139,11 @@ std::vector<Remark> JudgeLight(const LightCheck& light)
 		return { { light.clipped_share > MANY_CLIPPED ? Grade::POOR : Grade::FAIR, fmt::format("{:.0f} % of the edges have a clipped bright side, which makes their blur, and "
 			"the aperture, too small: expose less, so that the board's white stays below the file's greatest value in every colour", 100 * light.clipped_share) } };
 	std::vector<Remark> remarks;
-	if (light.sharpening.value > SHARPENED && light.sharpening.value > CERTAIN * light.sharpening.sigma)
+	if (SharpeningIsSeen(light))
 		remarks.push_back({ light.sharpening.value > 10 * SHARPENED ? Grade::POOR : Grade::FAIR, fmt::format("sharp edges are steeper than their pixels can make them (by {:.2f} +- {:.2f} px² of blur): "
 			"the photographs were sharpened, or given contrast, which makes blur, aperture and tilt wrong. Develop the raw files without sharpening, or set the camera's sharpness and contrast to their least",
 			light.sharpening.value, light.sharpening.sigma) });
-	if (std::abs(light.bend.value) > BENT && std::abs(light.bend.value) > CERTAIN * light.bend.sigma)
+	if (BendIsSeen(light))
 		remarks.push_back({ std::abs(light.bend.value) > 5 * BENT ? Grade::POOR : Grade::FAIR, fmt::format("blurred edges lie {:.3f} +- {:.3f} of their blur's radius to the {} side of where the sharp ones "
 			"say: the values are not the light that `transfer` makes of them. A tone curve in the camera does this (and coma, a little), and biases blur and aperture. Develop the raw files with a linear curve, or say the right `transfer`",
 			std::abs(light.bend.value), light.bend.sigma, light.bend.value > 0 ? "bright" : "dark") });

@@ -14,6 +14,13 @@ namespace tiltcal
 /// Of a solved calibration by an exact model. `sharpening` is NaN where nothing is sharp.
 LightCheck CheckLight(const Calibration& calibration);
 
+/// Whether more of it is seen than the lens could do, and than chance.
+bool SharpeningIsSeen(const LightCheck& light);
+bool BendIsSeen(const LightCheck& light);
+
+/// Whether what is seen of sharpening and of a tone curve is enough for the photograph's misfit of blur. One of another state misses by more: by its own blur.
+bool LightMayExplain(const Calibration& calibration, const PhotographCheck& photograph);
+
 /// What it says that a user must know, with grades.
 std::vector<Remark> JudgeLight(const LightCheck& light);
 

@@ -45,13 +45,17 @@ public:
 	{
 		if (!c.refined)
 			Say(Grade::POOR, "the joint refinement did not converge: geometry and blur are as solved one after the other, and each one's sigma does not know of the other's");
-		AddRemarks(JudgePhotographs(c));
-		AddRemarks(JudgeBoard(c));
-		AddRemarks(JudgeUntilted(c));
-		// What these name is not the lens's aberrations. A slight fault of the light may be theirs: they move edges too.
-		const bool odd = verdict.grade != Grade::GOOD;
+		// Light first: it may be why photographs and an untilted lens look as if they were not what they are.
 		AddRemarks(JudgeLight(c.light));
-		const bool explained = odd || verdict.grade == Grade::POOR;
+		const bool spoiled = verdict.grade == Grade::POOR;
+		bool odd = !c.refined;
+		for (const std::vector<Remark>& remarks : { JudgePhotographs(c), JudgeBoard(c), JudgeUntilted(c) })
+		{
+			AddRemarks(remarks);
+			odd = odd || std::any_of(remarks.begin(), remarks.end(), [](const Remark& r) { return r.grade != Grade::GOOD; });
+		}
+		// What these name is not the lens's aberrations. A slight fault of the light may be theirs: they move edges too.
+		const bool explained = odd || spoiled;
 		ImageDistance();
 		for (size_t s = 0; s < c.solution.states.size(); ++s)
 		{

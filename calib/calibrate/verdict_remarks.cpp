@@ -3,6 +3,7 @@
 #include "calibrate/verdict_remarks.h"
 
 #include "base/robust.h"
+#include "calibrate/check_light.h"
 
 #include <fmt/format.h>
 
@@ -33,9 +34,14 @@ void AddOdd(const Calibration& c, const PhotographCheck& p, std::vector<Remark>&
 {
 	const std::string who = fmt::format("state {}: {}: ", c.task.states[p.state].name, FileOf(c.task, p.state, p.photo));
 	if (p.odd_blur)
-		remarks.push_back({ Grade::POOR, who + fmt::format("its blur fits to {:.2f} px, that of the others to {:.2f} px; {}", p.rms_blur, p.blur_typical, p.fits_state
-			? fmt::format("it fits the lens of state {}: file it there", c.task.states[*p.fits_state].name)
-			: std::string("was the lens tilted, focused or stopped otherwise, or the camera shaken? Leave it out or file it in its own state")) });
+	{
+		std::string advice = p.fits_state ? fmt::format("it fits the lens of state {}: file it there", c.task.states[*p.fits_state].name)
+			: std::string("was the lens tilted, focused or stopped otherwise, or the camera shaken? Leave it out or file it in its own state");
+		// Nobody is to throw away, or to file elsewhere, what is right.
+		if (LightMayExplain(c, p))
+			advice = "what was done to its light is enough for that, and misleads the fit of all photographs: mend the light, and look again before you leave it out";
+		remarks.push_back({ Grade::POOR, who + fmt::format("its blur fits to {:.2f} px, that of the others to {:.2f} px; ", p.rms_blur, p.blur_typical) + advice });
+	}
 	if (p.odd_places)
 		remarks.push_back({ Grade::POOR, who + fmt::format("its corners fit to {:.2f} px, those of the others to {:.2f} px: is it of the same camera and board? Leave it out, and look", p.rms_places, p.places_typical) });
 }
@@ -103,8 +109,10 @@ std::vector<Remark> JudgeUntilted(const Calibration& c)
 	const double size = std::abs(tilt.value);
 	if (!c.untilted_check.known || c.task.untilted_free || size < SURE * tilt.sigma || size < TILT_SEEN)
 		return {};
-	return { { size > TILT_LARGE ? Grade::POOR : Grade::FAIR, fmt::format("state {}: its blur says that the lens is tilted by {:.2f} +- {:.2f} degrees towards {:.0f}, and the tilts of the others are off by about as much: "
-		"set the lens straight, or give `untilted_free`", c.task.states[0].name, size, tilt.sigma, c.untilted_check.tilt_direction.value + (tilt.value < 0 ? 180 : 0)) } };
+	const bool light = SharpeningIsSeen(c.light) || BendIsSeen(c.light);
+	return { { size > TILT_LARGE ? Grade::POOR : Grade::FAIR, fmt::format("state {}: its blur says that the lens is tilted by {:.2f} +- {:.2f} degrees towards {:.0f}, {}", c.task.states[0].name, size, tilt.sigma,
+		c.untilted_check.tilt_direction.value + (tilt.value < 0 ? 180 : 0), light ? "which need not be so: what was done to the light changes blur by itself. Mend the light first; what is told then is the lens's"
+		: "and the tilts of the others are off by about as much: set the lens straight, or give `untilted_free`") } };
 }
 
 }

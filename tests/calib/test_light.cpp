@@ -58,6 +58,21 @@ TEST(Light, LinearLightIsGood)
 
 // Each biases blur by more than its sigma (the aperture by 7 to 25 %), so none may be good.
 TEST(Light, SharpenedIsSaid) { EXPECT_GT(Developed("sharpened").verdict.grade, Grade::GOOD); }
+
+TEST(Light, SharpenedPhotographsAreNotCalledMisfiled)
+{
+	// Two untilted photographs of this camera are sharper than the others, and are what sharpening changes most.
+	const Answer answer = CloseTheLoop(Photograph(RandomCamera(3), 3), LightOf("sharpened"), 1, testing::TempDir() + "light-misfiled");
+	ASSERT_EQ(answer.refusal, "");
+	const std::vector<Remark>& remarks = answer.calibration.verdict.remarks;
+	ASSERT_FALSE(remarks.empty());
+	EXPECT_EQ(answer.calibration.verdict.grade, Grade::POOR);
+	EXPECT_NE(remarks[0].text.find("sharpened"), std::string::npos) << remarks[0].text;
+	for (const Remark& r : remarks)
+		for (const char* accusation : { "file it", "camera shaken", "set the lens straight", "untilted_free" })
+			EXPECT_EQ(r.text.find(accusation), std::string::npos) << r.text;
+}
+
 TEST(Light, ToneCurveIsSaid)
 {
 	const Calibration c = Developed("tone-curve");
