@@ -32,8 +32,9 @@ const double TimeBound = 0.25, ErrorBound = 0.30;
 /// Where they are not, tiltcost says so by its standard deviation, a jackknife over ten groups of blocks: Student's t with 9 degrees of
 /// freedom is beyond this once in a thousand. Of twenty-two scenes and figures, whose two settings share a pilot, one day in fifty.
 const double Student = 4.78;
-/// A prediction that is wrong by a factor of two is none, whatever it says of itself.
-const double MostBound = 1.0;
+/// A prediction that is wrong by a factor of two is none, whatever it says of itself: no bound is wider, and a standard deviation whose bound would be is a failure itself.
+/// Else whoever says to know less and less of his own predictions could never be wrong.
+const double MostBound = 1.0, MostSigma = MostBound / Student;
 const double Errors[] = {0.01, 0.004};
 
 struct Effort
@@ -87,10 +88,12 @@ struct Result
 	double ErrorLimit() const { return std::min(MostBound, std::max(ErrorBound, Student * std::hypot(error_sigma, uncertain))); }
 	double DenoisedLimit() const { return std::min(MostBound, std::max(ErrorBound, Student * std::hypot(error_sigma, denoised_uncertain))); }
 	double TimeLimit() const { return std::min(MostBound, std::max(TimeBound, Student * time_sigma)); }
+	/// Of errors always; of times where they are judged, for elsewhere they are the machine's.
+	bool SigmasPromise(bool judge_time) const { return error_sigma <= MostSigma && (!judge_time || time_sigma <= MostSigma); }
 	/// Time is rays times what one takes: the bound of the product holds for the factor that is the machine's no affair.
 	bool Good(bool judge_time) const
 	{
-		return std::abs(ErrorOff()) <= ErrorLimit() && std::abs(DenoisedOff()) <= DenoisedLimit() && std::abs(RaysOff()) <= TimeLimit() && (!judge_time || std::abs(TimeOff()) <= TimeLimit());
+		return SigmasPromise(judge_time) && std::abs(ErrorOff()) <= ErrorLimit() && std::abs(DenoisedOff()) <= DenoisedLimit() && std::abs(RaysOff()) <= TimeLimit() && (!judge_time || std::abs(TimeOff()) <= TimeLimit());
 	}
 };
 
@@ -301,10 +304,11 @@ void Write(const Places& places, const std::vector<Result>& results)
 {
 	std::string csv = "scene,min,max,variance,predicted_error,predicted_error_sigma,error,error_sigma,predicted_rays,rays,predicted_cpu_s,predicted_cpu_sigma,cpu_s,pilot_share,predicted_denoised_error,denoised_error,denoised_error_sigma\n";
 	std::string html = fmt::format("<h2>tiltcost: predicted and rendered</h2>\n<p>{} × {} pixels, predicted once before anything is rendered, from the part of the picture that stands beside it. Errors against "
-		"truths with other lens samples, whose own error is taken off. Bounds: {:.0f} % in rays{}, {:.0f} % in error, or {:.2f} standard deviations (Student's t, once in 1000) where those are wider, never more than 100 %."
+		"truths with other lens samples, whose own error is taken off. Bounds: {:.0f} % in rays{}, {:.0f} % in error, or {:.2f} standard deviations (Student's t, once in 1000) where those are wider, never more than {:.0f} %, and no standard "
+		"deviation that is told may be beyond {:.0f} %."
 		"</p>\n<table><tr><th>scene</th><th>pilot</th><th>blur_samples, variance</th><th>error predicted</th><th>rendered</th><th>off by</th><th>bound</th>"
 		"<th>denoised, predicted</th><th>rendered</th><th>off by</th><th>bound</th><th>rays predicted</th><th>rendered</th><th>off by</th><th>CPU s predicted</th><th>rendered</th><th>off by</th><th>bound</th></tr>\n", places.effort.width, places.effort.height, 100 * TimeBound,
-		places.effort.judge_time ? " and in time" : " (seconds are shown, not judged)", 100 * ErrorBound, Student);
+		places.effort.judge_time ? " and in time" : " (seconds are shown, not judged)", 100 * ErrorBound, Student, 100 * MostBound, 100 * MostSigma);
 	for (const Result& r : results)
 	{
 		const Row& p = r.predicted;
