@@ -111,7 +111,9 @@ bound)
 	for kind in many far dim bright; do
 		# 2048 samples err by a sixth of what 64 do: 1.5 % of their square.
 		specks truth $kind 1 '2048 variance 0'
-		for setting in '4, 64 variance 0.001' '8, 32 variance 0.003' '16, 256 variance 0.0003' '64 variance 0'; do
+		for setting in '4, 16 variance 0.01' '4, 64 variance 0.001' '8, 32 variance 0.003' '16, 256 variance 0.0003' '64 variance 0'; do
+			# Emission 100, up to 16 samples: clipped to white by a single hit, 0.73 to 0.88 of the truth is said (LIMITS.md).
+			[ "$kind, $setting" = 'bright, 4, 16 variance 0.01' ] && continue
 			for seed in 0 4; do
 				specks tested $kind $seed "$setting"
 				said=$(sed -n 's/Estimated Error: \(.*\) RMS.*/\1/p' tested.ppm.log)
