@@ -49,20 +49,14 @@ void WidenPoint(const Point& other, const Point& value, Point& sigma)
 		sigma[axis] = std::hypot(sigma[axis], other[axis] - value[axis]);
 }
 
-/// By that part of the distance. Tilts by their vectors: a tilt of -1 degree towards 10 is one of 1 degree towards 190.
+/// By that part of the distance.
 void WidenTilt(const StateLens& other, double part, StateLens& told)
 {
-	const double direction = told.tilt_direction.value;
-	const auto widen = [&](Estimate StateLens::* angle)
-	{
-		const Eigen::Vector2d apart = part * (TiltVector((other.*angle).value, other.tilt_direction.value) - TiltVector((told.*angle).value, direction));
-		Estimate& tilt = told.*angle;
-		tilt.sigma = std::hypot(tilt.sigma, apart.dot(TiltVector(1, direction)));
-		return apart.dot(TiltVector(1, direction + 90));
-	};
-	widen(&StateLens::focal_plane_tilt);
-	if (const double aside = widen(&StateLens::lens_tilt); told.lens_tilt.value != 0)
-		told.tilt_direction.sigma = std::hypot(told.tilt_direction.sigma, aside / told.lens_tilt.value * tilt_lens::DegreesPerRadian);
+	const TiltDifference lens = DifferenceOfTilts(told, other, &StateLens::lens_tilt), plane = DifferenceOfTilts(told, other, &StateLens::focal_plane_tilt);
+	told.lens_tilt.sigma = std::hypot(told.lens_tilt.sigma, part * lens.along);
+	told.focal_plane_tilt.sigma = std::hypot(told.focal_plane_tilt.sigma, part * plane.along);
+	if (told.lens_tilt.value != 0)
+		told.tilt_direction.sigma = std::hypot(told.tilt_direction.sigma, part * lens.aside / told.lens_tilt.value * tilt_lens::DegreesPerRadian);
 }
 
 /// What stands for the fifth order in six numbers is in their third; sixteen share the light and the places out among numbers that six do not have.

@@ -61,19 +61,14 @@ void Widen(const std::vector<PartAnswer>& parts, Of distance, double& sigma)
 	sigma = std::sqrt(sigma * sigma + farthest);
 }
 
-/// Tilts by their vectors: a tilt of -1 degree towards 10 is one of 1 degree towards 190.
 void WidenTilt(const StateLens& whole, size_t state, const std::vector<PartAnswer>& parts, StateLens& told)
 {
-	const double direction = whole.tilt_direction.value, tilt = whole.lens_tilt.value;
-	const auto apart = [&](Estimate StateLens::* angle, const StateLens& part, double towards)
-	{
-		return (TiltVector((part.*angle).value, part.tilt_direction.value) - TiltVector((whole.*angle).value, direction)).dot(TiltVector(1, towards));
-	};
 	const auto widen = [&](auto distance, double& sigma) { Widen(parts, [&](const Solution& part) { return distance(part.states[state]); }, sigma); };
 	for (Estimate StateLens::* angle : { &StateLens::lens_tilt, &StateLens::focal_plane_tilt })
-		widen([&](const StateLens& part) { return Distance{ apart(angle, part, direction), (part.*angle).sigma }; }, (told.*angle).sigma);
-	if (tilt != 0)
-		widen([&](const StateLens& part) { return Distance{ apart(&StateLens::lens_tilt, part, direction + 90) / tilt * DEGREES, part.tilt_direction.sigma }; }, told.tilt_direction.sigma);
+		widen([&](const StateLens& part) { return Distance{ DifferenceOfTilts(whole, part, angle).along, (part.*angle).sigma }; }, (told.*angle).sigma);
+	if (const double tilt = whole.lens_tilt.value; tilt != 0)
+		widen([&](const StateLens& part) { return Distance{ DifferenceOfTilts(whole, part, &StateLens::lens_tilt).aside / tilt * DEGREES, part.tilt_direction.sigma }; },
+			told.tilt_direction.sigma);
 }
 
 }

@@ -2,6 +2,7 @@
 
 #include "calibrate/check_light.h"
 
+#include "edge/tone_exponent.h"
 #include "model/footprint.h"
 #include "model/predict.h"
 #include "solve/each_edge.h"
@@ -34,6 +35,9 @@ const double MOST_OF_SHARPENING = 2;
 /// Relative change of a blur's square, over the bend that is seen: a tone curve makes blurs, and the aperture, wrong by 1.7 times its bend
 /// (closed_loop --random 1 --first 3 --light tone-curve: 8 % and 0.047), squares by twice that.
 const double WIDTH_OF_BEND = 3.5;
+const double LEAST_REACH = 2;   // of ShiftOfExponent; edges whose neighbours lie nearer are fitted with those
+/// The power that its curve is like between middle grey and white: 2.4 c/(c + 0.055) at a code c of 0.8.
+const double SRGB_GAMMA = 2.25;
 
 /// Of every edge, from where the lens puts it to where it was measured, to the bright side, px. By the real lens where that is the answer: what it makes of coma would be
 /// taken for a tone curve's work where the edges that were measured have their bright sides on one side more often than on the other.
@@ -68,6 +72,25 @@ double SlopeOf(const Calibration& c, size_t s, size_t p, std::vector<double>::co
 	}
 	weight = aa;
 	return aa > 0 ? ab / aa : 0;
+}
+
+/// The power of light that makes this bend at edges like these: what they show of wide blurs counts, as it does in the bend.
+std::optional<Estimate> ExponentOf(const Calibration& c, const Estimate& bend)
+{
+	double dark = 0, bright = 0, reach = 0, squares = 0;
+	ForEachEdge(c.task, [&](size_t s, size_t p, const Edge& e)
+	{
+		const double radius = 0.5 * PredictedBlur(c, s, p, e);
+		dark += radius * radius * std::max(e.low, 0.0);
+		bright += radius * radius * e.high;
+		reach += radius * e.reach;
+		squares += radius * radius;
+	});
+	if (!(bright > 0))
+		return std::nullopt;
+	const auto exponent = [&](double shift) { return ExponentOfShift(shift, dark / bright, std::max(reach / squares, LEAST_REACH)); };
+	const Estimate e{ exponent(bend.value), 0.5 * (exponent(bend.value + bend.sigma) - exponent(bend.value - bend.sigma)) };
+	return std::isfinite(e.value + e.sigma) ? std::optional(e) : std::nullopt;
 }
 
 int SharpEdges(const Task& task)
@@ -112,6 +135,7 @@ LightCheck CheckLight(const Calibration& c)
 	for (size_t k = 0; k < slopes.size(); ++k)
 		squares += std::pow(weights[k] / all * (slopes[k] - light.bend.value), 2);
 	light.bend.sigma = std::sqrt(squares * double(slopes.size()) / double(slopes.size() - 1));
+	light.exponent = ExponentOf(c, light.bend);
 	return light;
 }
 
@@ -144,9 +168,13 @@ std::vector<Remark> JudgeLight(const LightCheck& light)
 			"the photographs were sharpened, or given contrast, which makes blur, aperture and tilt wrong. Develop the raw files without sharpening, or set the camera's sharpness and contrast to their least",
 			light.sharpening.value, light.sharpening.sigma) });
 	if (BendIsSeen(light))
+	{
+		const std::string power = !light.exponent ? "" : fmt::format(". As if they were light to the power {:.3f} +- {:.3f}: a `transfer` of {:.2f} in place of srgb, or of what was told over {:.3f}, "
+			"puts that right where the curve is a power", light.exponent->value, light.exponent->sigma, SRGB_GAMMA / light.exponent->value, light.exponent->value);
 		remarks.push_back({ std::abs(light.bend.value) > 5 * BENT ? Grade::POOR : Grade::FAIR, fmt::format("blurred edges lie {:.3f} +- {:.3f} of their blur's radius to the {} side of where the sharp ones "
-			"say: the values are not the light that `transfer` makes of them. A tone curve in the camera does this (and coma, a little), and biases blur and aperture. Develop the raw files with a linear curve, or say the right `transfer`",
-			std::abs(light.bend.value), light.bend.sigma, light.bend.value > 0 ? "bright" : "dark") });
+			"say: the values are not the light that `transfer` makes of them. A tone curve in the camera does this (and coma, a little), and biases blur and aperture. Develop the raw files with a linear curve, or say the right `transfer`{}",
+			std::abs(light.bend.value), light.bend.sigma, light.bend.value > 0 ? "bright" : "dark", power) });
+	}
 	return remarks;
 }
 

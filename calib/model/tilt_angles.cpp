@@ -39,6 +39,13 @@ Eigen::Vector2d TiltVector(double lens_tilt_deg, double tilt_direction_deg)
 	return lens_tilt_deg * Eigen::Vector2d(std::sin(direction), std::cos(direction));
 }
 
+TiltDifference DifferenceOfTilts(const StateLens& from, const StateLens& to, Estimate StateLens::* angle)
+{
+	const double direction = from.tilt_direction.value;
+	const Eigen::Vector2d apart = TiltVector((to.*angle).value, to.tilt_direction.value) - TiltVector((from.*angle).value, direction);
+	return { apart.dot(TiltVector(1, direction)), apart.dot(TiltVector(1, direction + 90)) };
+}
+
 TiltAngles AnglesFromPlane(const Vec3<double>& q, double w_mm)
 {
 	const tilt_lens::Lens<double> lens = tilt_lens::LensFromPlane(q, 1 / w_mm);

@@ -22,6 +22,14 @@ struct TiltAngles
 /// A tilt as a vector, degrees: right and up of where the plane of focus recedes to. Differences of tilts are its own.
 Eigen::Vector2d TiltVector(double lens_tilt_deg, double tilt_direction_deg);
 
+/// From a tilt of `from` to that of `to`, degrees: along the direction of `from`, and aside, 90 degrees on. `angle`: lens_tilt or focal_plane_tilt. By their vectors:
+/// a tilt of -1 degree towards 10 is one of 1 degree towards 190.
+struct TiltDifference
+{
+	double along, aside;
+};
+TiltDifference DifferenceOfTilts(const StateLens& from, const StateLens& to, Estimate StateLens::* angle);
+
 /// By the vector lens equation n/f = q + e_z/w (optics.h). q in 1/mm, w in mm.
 TiltAngles AnglesFromPlane(const Vec3<double>& q, double w_mm);
 

@@ -205,9 +205,11 @@ std::vector<OpeningPoint> OpeningRays::Through(const std::vector<tilt_lens::Rim>
 		}
 	if (points.empty())
 		return all;
+	// Where nothing is cut the points stand for all of the light as they are.
+	if (light.weight < COVER)
+		MoveTo(light, points);
 	for (OpeningPoint& p : points)
 		p.weight /= sum;
-	MoveTo(light, points);
 	return points;
 }
 

@@ -5,6 +5,7 @@
 #include "calibrate/check_light.h"
 #include "camera_light.h"
 #include "closed_loop.h"
+#include "edge/tone_exponent.h"
 #include "measure/clipped.h"
 #include "model/footprint.h"
 #include "model/predict.h"
@@ -12,6 +13,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -79,6 +81,31 @@ TEST(Light, ToneCurveIsSaid)
 	EXPECT_GT(std::abs(c.light.bend.value), 5 * c.light.bend.sigma);
 	EXPECT_GT(c.verdict.grade, Grade::GOOD);
 }
+
+TEST(Light, TheExponentOfAToneCurveIsFound)
+{
+	const Calibration c = Developed("power-0.8");
+	EXPECT_GT(c.verdict.grade, Grade::GOOD);
+	ASSERT_TRUE(c.light.exponent);
+	// 3 sigma, and the 0.01 below which nothing is said, for the edges' shape.
+	EXPECT_NEAR(c.light.exponent->value, 0.8, 3 * c.light.exponent->sigma + 0.01);
+	const auto said = std::find_if(c.verdict.remarks.begin(), c.verdict.remarks.end(), [](const Remark& r) { return r.text.find("light to the power 0.8") != std::string::npos; });
+	EXPECT_NE(said, c.verdict.remarks.end());
+}
+
+TEST(Light, APowerIsFoundByTheShiftItMakes)
+{
+	EXPECT_NEAR(ShiftOfExponent(1, 0.06, 2), 0, 1e-6) << "the fit's own shape";
+	for (const double exponent : { 0.5, 0.9, 1.1, 2.0 })
+		for (const double dark : { 0.0, 0.06, 0.3 })
+		{
+			const double shift = ShiftOfExponent(exponent, dark, 2);
+			EXPECT_GT(shift * (exponent - 1), 0);
+			EXPECT_NEAR(ExponentOfShift(shift, std::pow(dark, exponent), 2), exponent, 1e-4);
+		}
+	EXPECT_TRUE(std::isnan(ExponentOfShift(5, 0.06, 2)));
+}
+
 TEST(Light, ClippedAboveTheFilesOwnWhiteIsPoor)
 {
 	// White of 1.28 of full scale: every bright side.

@@ -50,6 +50,8 @@ cv::Mat Expose(const cv::Mat& negative, const Light& light, unsigned seed)
 	else
 		cv::merge(std::vector<cv::Mat>{ codes, codes, codes }, colours);
 	colours.convertTo(colours, CV_32F, 1 / levels);
+	if (light.power != 1)
+		cv::pow(colours, light.power, colours);
 	return colours;
 }
 
@@ -99,6 +101,7 @@ std::vector<Light> AllLights()
 		with("clipped-exr", [](Light& l) { l.exposure = 1.6; l.exr = true; }),
 		with("sharpened", [](Light& l) { l.sharpen = 0.8; }),
 		with("tone-curve", [](Light& l) { l.tone_curve = 0.5; }),
+		with("power-0.8", [](Light& l) { l.power = 0.8; }),
 		with("sharpened-tone-curve", [](Light& l) { l.sharpen = 0.8; l.tone_curve = 0.5; }),
 		with("cooked-jpeg", [](Light& l) { l.sharpen = 0.5; l.tone_curve = 0.3; l.jpeg = l.mosaic = true; l.snr = 100; }),
 	};

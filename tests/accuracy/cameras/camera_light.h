@@ -21,6 +21,7 @@ struct Light
 	bool mosaic = false;       ///< a Bayer pattern, demosaiced by OpenCV (bilinear)
 	int bits = 16;             ///< of the sensor, linear
 	int white_level = 0;       ///< 0: scaled to the file's own; otherwise the code of full scale, as raw converters leave 12 bits in 16
+	double power = 1;          ///< a tone curve that makes this power of light
 	double sharpen = 0;        ///< amount of an unsharp mask of 1 px, on the sRGB codes
 	double tone_curve = 0;     ///< 0 none to 1 strong: an S about middle grey, on the sRGB codes
 	bool jpeg = false;         ///< 8 bits, quality 92
