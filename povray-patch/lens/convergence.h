@@ -66,6 +66,16 @@ struct LevelChanges
 		return *this;
 	}
 
+	/// Of pixels that count as so much each.
+	LevelChanges operator*(double weight) const
+	{
+		LevelChanges weighted = *this;
+		weighted.pixels *= weight;
+		for(double& c : weighted.change)
+			c *= weight;
+		return weighted;
+	}
+
 	/// Sum over the pixels of the variance of their means.
 	double SumOfVariances(double *exponent = nullptr) const { return VarianceFromChanges(change, changes, exponent); }
 };

@@ -294,7 +294,7 @@ void JudgeBlocks(const NoisyPicture& picture, int top, int bottom, Band& band)
 }
 
 double DenoiseRows(const NoisyPicture& picture, int top, int bottom, std::vector<float> (&denoised)[PictureChannels],
-                   std::vector<float> *squared_error)
+                   std::vector<float> *squared_error, std::vector<float> *own_share)
 {
 	static const std::vector<Kernel> kernels = AllKernels();
 	Band band;
@@ -318,6 +318,9 @@ double DenoiseRows(const NoisyPicture& picture, int top, int bottom, std::vector
 			const double pixel = band.cost.v[from] * Optimism;
 			if(squared_error)
 				(*squared_error)[size_t(y) * picture.width + x] = float(pixel);
+			// Stein's weights: GiveCredit's cost is this share of the own variance.
+			if(own_share)
+				(*own_share)[size_t(y) * picture.width + x] = band.cost.v[from] / band.variance.v[from];
 			error += pixel;
 		}
 	return error;

@@ -53,10 +53,10 @@ struct NoisyPicture
 /// Denoises rows top..bottom (inclusive) into the same rows of `denoised`, planes of
 /// the picture's size. Rows beyond are looked at where the picture has them. Returns
 /// the sum over those pixels of the estimated squared error (mean of red, green,
-/// blue), and puts each pixel's into `squared_error`, a plane of the picture's size, where that is not null. The
-/// result for a row does not depend on top and bottom.
+/// blue), and puts each pixel's into `squared_error`, a plane of the picture's size, where that is not null, and what the
+/// pixel keeps of its own mean, 1 where it stays as it was, into `own_share`. The result for a row does not depend on top and bottom.
 double DenoiseRows(const NoisyPicture& picture, int top, int bottom, std::vector<float> (&denoised)[PictureChannels],
-                   std::vector<float> *squared_error = nullptr);
+                   std::vector<float> *squared_error = nullptr, std::vector<float> *own_share = nullptr);
 
 }
 

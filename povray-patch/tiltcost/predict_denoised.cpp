@@ -22,13 +22,12 @@ const int EdgePixels = 4;
 
 }
 
-/// Squared errors of the block's inner pixels, averaged over the channels, summed. `known`: the level that each pixel
-/// stops at.
-double Pilot::DenoisedError(const Block& block, const std::vector<size_t>& known) const
+/// Of the block's inner pixels, added to the class of the level that each stops at. `known`: that level, by pixel.
+void Pilot::AddDenoised(const Block& block, const std::vector<size_t>& known, std::vector<DenoisedClass>& classes) const
 {
 	tilt_lens::NoisyPicture picture;
 	picture.Resize(block.width, block.height);
-	std::vector<float> denoised[tilt_lens::PictureChannels];
+	std::vector<float> denoised[tilt_lens::PictureChannels], own(block.pixels.size());
 	for (auto& plane : denoised)
 		plane.assign(block.pixels.size(), 0.0f);
 	for (size_t i = 0; i < block.pixels.size(); ++i)
@@ -41,30 +40,47 @@ double Pilot::DenoisedError(const Block& block, const std::vector<size_t>& known
 			picture.first[c][i] = levels[known[i] > 0 ? known[i] - 1 : 0].mean[c];
 		}
 	}
-	tilt_lens::DenoiseRows(picture, 0, block.height - 1, denoised);
+	tilt_lens::DenoiseRows(picture, 0, block.height - 1, denoised, nullptr, &own);
 
-	double sum = 0;
 	for (size_t i = 0; i < block.pixels.size(); ++i)
 		if (IsInside(block, int(i) % block.width, int(i) / block.width, EdgePixels))
+		{
+			DenoisedClass& of = classes[known[i]];
 			for (int c = 0; c < 3; ++c)
-				sum += std::pow(Clipped(denoised[c][i]) - Clipped(block.pixels[i].levels.back().mean[c]), 2) / 3;
-	return sum;
+				of.off += std::pow(Clipped(denoised[c][i]) - Clipped(block.pixels[i].levels.back().mean[c]), 2) / 3;
+			of.changes += block.pixels[i].changes[LINEAR];
+			of.kept += block.pixels[i].changes[LINEAR] * own[i];
+			of.kept_squared += block.pixels[i].changes[LINEAR] * (own[i] * own[i]);
+		}
+}
+
+/// The sum of squared errors. m(N) is off by v(N) itself; of that the pixel's own mean, the first of the same samples, has v(N) in common
+/// with it (as independent samples do, whatever their numbers). With a share w of it in the denoised value d,
+///   E (d - truth)^2 = E (d - m(N))^2 + (2 w - 1) v(N),
+/// and at least w^2 v(N), the own mean's.
+double Pilot::DenoisedClass::SquaredErrors() const
+{
+	return std::max(off + 2 * kept.SumOfVariances() - changes.SumOfVariances(), kept_squared.SumOfVariances());
 }
 
 double Pilot::PredictDenoised(const Setting& setting) const
 {
 	const std::vector<tilt_lens::SampleLevel> levels = tilt_lens::SampleLevels(setting.min, setting.max, setting.variance, setting.confidence, &Chi2);
-	double sum = 0, pixels = 0;
+	std::vector<DenoisedClass> classes(Known(samples) + 1);
 	for (const Block& block : blocks)
 	{
 		std::vector<size_t> known;
 		for (const size_t level : LevelsOf(block, levels))
 			known.push_back(Known(levels[level].samples));
-		sum += DenoisedError(block, known);
-		for (int i = 0; i < block.width * block.height; ++i)
-			pixels += IsInside(block, i % block.width, i / block.width, EdgePixels);
+		AddDenoised(block, known, classes);
 	}
-	// The truth's own noise adds where a pixel keeps little of its own mean, and takes away where it keeps much: left out.
+	double sum = 0, pixels = 0;
+	for (const DenoisedClass& of : classes)
+		if (of.changes.pixels > 0)
+		{
+			sum += of.SquaredErrors();
+			pixels += of.changes.pixels;
+		}
 	return std::sqrt(sum / pixels);
 }
 

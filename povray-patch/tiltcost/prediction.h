@@ -112,11 +112,20 @@ private:
 		tilt_lens::LevelChanges changes[SCALES];
 	};
 
+	/// Pixels that stop at the same level, denoised.
+	struct DenoisedClass
+	{
+		double off = 0;                             ///< squared distance of the denoised ones from m(N)
+		tilt_lens::LevelChanges changes, kept, kept_squared;    ///< all, and by the shares that pixels keep of their own means, and the shares' squares
+
+		double SquaredErrors() const;
+	};
+
 	static Pixel Prepare(const std::vector<tilt_lens::PilotLevel>& levels);
 	std::vector<size_t> LevelsOf(const Block& block, const std::vector<tilt_lens::SampleLevel>& levels) const;
 	static bool IsInside(const Block& block, int x, int y, int reach = tilt_lens::NeighbourReach);
 	size_t Known(int count) const;
-	double DenoisedError(const Block& block, const std::vector<size_t>& known) const;
+	void AddDenoised(const Block& block, const std::vector<size_t>& known, std::vector<DenoisedClass>& classes) const;
 	void AddErrors(const Class& of, int count, Prediction& sum) const;
 
 	std::vector<Block> blocks;

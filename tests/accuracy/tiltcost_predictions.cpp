@@ -32,7 +32,7 @@ const double TimeBound = 0.25, ErrorBound = 0.30;
 /// Where they are not, tiltcost says so by its standard deviation, a jackknife over ten groups of blocks: Student's t with 9 degrees of
 /// freedom is beyond this once in a thousand. Of twenty-two scenes and figures, whose two settings share a pilot, one day in fifty.
 const double Student = 4.78;
-/// A prediction that is wrong by a factor of two is none, whatever it says of itself: no bound is wider, and a standard deviation whose bound would be is a failure itself.
+/// A prediction that is wrong by a factor of two, up or down, is none, whatever it says of itself: no bound is wider, and a standard deviation whose bound would be is a failure itself.
 /// Else whoever says to know less and less of his own predictions could never be wrong.
 const double MostBound = 1.0, MostSigma = MostBound / Student;
 const double Errors[] = {0.01, 0.004};
@@ -73,6 +73,9 @@ struct Predicted
 	double error_sigma = 0, time_sigma = 0;
 };
 
+/// `off` is predicted / true - 1. A bound beyond the promise is a factor, the same one down as up: what is 100 % too much one way is half the other.
+bool Within(double off, double limit, double promise) { return off <= limit && off >= std::min(-promise, 1 / (1 + limit) - 1); }
+
 struct Result
 {
 	std::string scene;
@@ -93,7 +96,8 @@ struct Result
 	/// Time is rays times what one takes: the bound of the product holds for the factor that is the machine's no affair.
 	bool Good(bool judge_time) const
 	{
-		return SigmasPromise(judge_time) && std::abs(ErrorOff()) <= ErrorLimit() && std::abs(DenoisedOff()) <= DenoisedLimit() && std::abs(RaysOff()) <= TimeLimit() && (!judge_time || std::abs(TimeOff()) <= TimeLimit());
+		return SigmasPromise(judge_time) && Within(ErrorOff(), ErrorLimit(), ErrorBound) && Within(DenoisedOff(), DenoisedLimit(), ErrorBound) && Within(RaysOff(), TimeLimit(), TimeBound)
+			&& (!judge_time || Within(TimeOff(), TimeLimit(), TimeBound));
 	}
 };
 
