@@ -4,9 +4,10 @@
 #   cmake -DTILTCAL= -DPOVRAY= -DSCENE=<scenes/boxes> -DWORK= -P lens.cmake
 cmake_minimum_required(VERSION 3.25)
 
-# The photographs' noise is 0.8 of 255, that of 64 samples another 0.5; the calibrated camera has 1.2 to 1.9.
-set(LIMIT 1.5)
-set(SAMPLES 64)
+# The goal of Table 2 for a camera that was calibrated, which one made of the glass itself may not miss either. Of that the photographs' noise is 0.8;
+# 512 samples, so that grain, which adds by squares, is little of the rest.
+set(LIMIT 1.0)
+set(SAMPLES 512)
 
 include("${SCENE}/steps.cmake")
 file(REMOVE_RECURSE "${WORK}")
