@@ -120,7 +120,7 @@ CameraPose Finish(const PoseFit& fit, const PoseMinimum& best, double scale, dou
 	for (size_t i = 0; i < points.size(); ++i)
 	{
 		sum += pose.residuals[i].squaredNorm();
-		pose.outliers += pose.residuals[i].norm() > pose.far_off;
+		pose.outliers += pose.residuals[i].norm() > pose.far_off * points[i].sigma;
 		if (pose.residuals[i].norm() > pose.residuals[pose.worst].norm())
 			pose.worst = i;
 	}

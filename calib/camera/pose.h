@@ -29,7 +29,7 @@ struct CameraPose
 	double rms = 0;                                             ///< px, sqrt(mean(dx^2 + dy^2))
 	double misfit = 0;                                          ///< sum of the squared residuals as the fit weighs them, px^2
 	size_t worst = 0;                                           ///< index of the largest residual
-	double far_off = 0;                                         ///< px beyond which a point is no noise; the fit hardly counts it
+	double far_off = 0;                                         ///< px, times the point's sigma, beyond which it is no noise; the fit hardly counts it
 	int outliers = 0;                                           ///< points farther off than that
 };
 

@@ -54,8 +54,8 @@ struct PoseCost
 			distortion[k] = T(camera.distortion[k]);
 		T pixel[2];
 		MakePicture(w, distortion, centre, normal).Project(P, pixel);
-		residual[0] = pixel[0] - point.u;
-		residual[1] = pixel[1] - point.v;
+		residual[0] = (pixel[0] - point.u) / point.sigma;
+		residual[1] = (pixel[1] - point.v) / point.sigma;
 		return true;
 	}
 };
@@ -207,6 +207,7 @@ std::vector<Eigen::Vector2d> PoseFit::Residuals(const PoseMinimum& m) const
 	{
 		residuals.emplace_back(Eigen::Vector2d::Zero());
 		PoseCost{ camera, normal, points[i], origins[i] }(blocks.rotation, blocks.location, residuals.back().data());
+		residuals.back() *= points[i].sigma;
 	}
 	return residuals;
 }
@@ -214,8 +215,9 @@ std::vector<Eigen::Vector2d> PoseFit::Residuals(const PoseMinimum& m) const
 double PoseFit::RobustScale(const PoseMinimum& m) const
 {
 	std::vector<double> lengths;
-	for (const Eigen::Vector2d& r : Residuals(m))
-		lengths.push_back(r.norm());
+	const std::vector<Eigen::Vector2d> residuals = Residuals(m);
+	for (size_t i = 0; i < points.size(); ++i)
+		lengths.push_back(residuals[i].norm() / points[i].sigma);
 	// The fit's six numbers take up a part of the residuals.
 	const double n = static_cast<double>(points.size());
 	return std::max(LEAST_SCALE_PX, Median(std::move(lengths)) / RAYLEIGH_MEDIAN * std::sqrt(n / (n - 3)));

@@ -19,7 +19,7 @@ struct PoseMinimum
 {
 	Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
 	Eigen::Vector3d location = Eigen::Vector3d::Zero();
-	double misfit = 0;   ///< sum of squared residuals under the loss, px^2
+	double misfit = 0;   ///< sum of squared residuals, over their points' sigmas, under the loss, px^2
 };
 
 /// The points of one photograph, their world moved to the centroid and scaled to a spread of
@@ -32,7 +32,7 @@ public:
 
 	/// Every local minimum that is found, best first, in the normalised world; empty when no
 	/// start has all points in front of the lens. `scale_px` receives the standard deviation
-	/// that the residuals of the best one show, robustly.
+	/// that the residuals of the best one show, robustly, of points of sigma 1.
 	std::vector<PoseMinimum> Minima(double& scale_px) const;
 
 	/// Lines of the points that the closed form would have behind the lens.

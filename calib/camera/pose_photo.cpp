@@ -3,6 +3,7 @@
 #include "camera/pose_photo.h"
 
 #include <tiltcal/error.h>
+#include "camera/pose_weights.h"
 #include "measure/find_crossing.h"
 #include "picture/image_io.h"
 
@@ -17,6 +18,9 @@ namespace tiltcal
 
 namespace
 {
+
+/// The pose that tells the weights is itself better by them; a third round changes nothing that can be seen.
+const int WEIGHING_ROUNDS = 2;
 
 /// What the eye and this program compare: noise is about equal in dark and bright.
 cv::Mat Encoded(const cv::Mat& photo)
@@ -45,16 +49,29 @@ bool Measure(const cv::Mat& grey, const Point& at, int half, double reach, Place
 	return true;
 }
 
+/// The photograph, and the same smoothed for crossings whose blur leaves little slope beside the noise. A blur that is the same all round does not move them.
+struct Greys
+{
+	cv::Mat sharp, smooth;
+	int half;
+
+	Greys(const cv::Mat& photo, int window) : sharp(Encoded(photo)), half(window) { cv::GaussianBlur(sharp, smooth, cv::Size(), half / 6.0); }
+	/// For a blur disc so many px wide: wider than half of the window, or not.
+	const cv::Mat& For(double blur) const { return blur > half ? smooth : sharp; }
+};
+
 /// Measures all points anew where `pose` sees them, from the pixels that the file gives.
-void Look(const StateCamera& camera, const cv::Mat& grey, int half, const std::vector<PosePoint>& points, PhotoPose& solved)
+void Look(const StateCamera& camera, const Greys& greys, double unit_mm, const std::vector<PosePoint>& points, PhotoPose& solved)
 {
 	const CameraPose pose = solved.pose;
+	const int half = greys.half;
 	solved = { pose, {}, {}, {}, {} };
 	for (PosePoint p : points)
 	{
 		const bool given = p.placed != Placed::NOWHERE;
 		Point at;
-		const bool inside = SeenAt(camera, pose, p.world, at) && at[0] >= 0 && at[1] >= 0 && at[0] <= grey.cols - 1 && at[1] <= grey.rows - 1;
+		const bool inside = SeenAt(camera, pose, p.world, at) && at[0] >= 0 && at[1] >= 0 && at[0] <= camera.width - 1 && at[1] <= camera.height - 1;
+		const cv::Mat& grey = greys.For(BlurAt(camera, pose, unit_mm, p.world));
 		// Predicted by the camera: half of what a click may be off. A pixel that is given stays where its owner meant it.
 		const bool near = inside && (!given || std::hypot(at[0] - p.u, at[1] - p.v) <= half);
 		if (p.placed == Placed::MEASURED || (near && Measure(grey, at, half, 0.5 * half, given ? Placed::MEASURED : Placed::FOUND, p)) || given)
@@ -70,7 +87,7 @@ bool LeaveOutStrangers(PhotoPose& solved)
 	std::vector<PosePoint> kept;
 	for (size_t i = 0; i < solved.points.size(); ++i)
 	{
-		if (solved.points[i].placed == Placed::FOUND && solved.pose.residuals[i].norm() > solved.pose.far_off)
+		if (solved.points[i].placed == Placed::FOUND && solved.pose.residuals[i].norm() > solved.pose.far_off * solved.points[i].sigma)
 			solved.strange.push_back(solved.points[i].line);
 		else
 			kept.push_back(solved.points[i]);
@@ -96,16 +113,16 @@ std::string Ranges(std::vector<int> lines)
 
 }
 
-PhotoPose SolvePoseInPhoto(const StateCamera& camera, const cv::Mat& photo, std::vector<PosePoint> points, int half, const std::string& file)
+PhotoPose SolvePoseInPhoto(const StateCamera& camera, const cv::Mat& photo, std::vector<PosePoint> points, int half, const std::string& file, double unit_mm)
 {
 	NeedSize(camera, photo);
 	RefuseOutside(camera, points, file);
-	const cv::Mat grey = Encoded(photo);
+	const Greys greys(photo, half);
 	PhotoPose solved;
 	for (PosePoint& p : points)
 		if (p.placed == Placed::GIVEN)
 		{
-			Measure(grey, { p.u, p.v }, half, half, Placed::MEASURED, p);
+			Measure(greys.sharp, { p.u, p.v }, half, half, Placed::MEASURED, p);
 			solved.points.push_back(p);
 		}
 	solved.pose = SolvePose(camera, solved.points, file);
@@ -113,10 +130,15 @@ PhotoPose SolvePoseInPhoto(const StateCamera& camera, const cv::Mat& photo, std:
 	for (size_t before = 0; solved.points.size() > before && solved.points.size() < points.size();)
 	{
 		before = solved.points.size();
-		Look(camera, grey, half, points, solved);
+		Look(camera, greys, unit_mm, points, solved);
 		do
 			solved.pose = SolvePose(camera, solved.points, file);
 		while (LeaveOutStrangers(solved));
+		for (int round = 0; round < WEIGHING_ROUNDS; ++round)
+		{
+			WeighByBlur(camera, solved.pose, unit_mm, solved.points);
+			solved.pose = SolvePose(camera, solved.points, file);
+		}
 	}
 	return solved;
 }

@@ -25,10 +25,11 @@ struct PhotoPose
 
 /// Moves every point with a pixel to the crossing of edges nearest to it (find_crossing.h; one that has none near keeps its
 /// pixel), fits the pose, looks for the points that are NOWHERE where this camera sees them, and fits again with those it
-/// found, until no more are found. One outside the picture, no crossing, or far off the fit (hidden, say) is left out.
+/// found, until no more are found. One outside the picture, no crossing, or far off the fit (hidden, say) is left out. Blurred ones
+/// count less (pose_weights.h), for which it must know the scene's unit.
 /// `photo`: linear, as ReadLinear gives it, at the calibrated size. `half`: window of 2 half + 1 px.
 /// Throws what SolvePose throws, and UsageError: a photograph of another size.
-PhotoPose SolvePoseInPhoto(const StateCamera& camera, const cv::Mat& photo, std::vector<PosePoint> points, int half, const std::string& file);
+PhotoPose SolvePoseInPhoto(const StateCamera& camera, const cv::Mat& photo, std::vector<PosePoint> points, int half, const std::string& file, double unit_mm = 1);
 
 /// PoseText, and the lines that were left out.
 std::string PhotoPoseText(const PhotoPose& solved);

@@ -27,6 +27,7 @@ struct PosePoint
 	Vec3<double> world{};      ///< scene units, left-handed
 	int line = 0;              ///< of the file, for messages
 	Placed placed = Placed::GIVEN;
+	double sigma = 1;          ///< of its pixel, over that of the surest points
 };
 
 /// Reads a CSV with the header u_px,v_px,x,y,z; a point without a pixel (",,x,y,z") is NOWHERE.

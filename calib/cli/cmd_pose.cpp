@@ -69,7 +69,7 @@ void Run(const Options& o)
 	else
 	{
 		const cv::Mat photo = ReadLinear(o.photo, ParseTransfer(o.transfer));
-		solved = SolvePoseInPhoto(camera, photo, points, o.window, o.points);
+		solved = SolvePoseInPhoto(camera, photo, points, o.window, o.points, o.unit_mm);
 		if (!o.overlay.empty())
 			set.Text(o.overlay, PngOf(DrawPosePoints(photo, solved)));
 	}

@@ -5,11 +5,13 @@
 #include <tiltcal/error.h>
 #include "measure/find_crossing.h"
 #include "camera/pose_photo.h"
+#include "camera/pose_weights.h"
 #include "support/posed_camera.h"
 
 #include <gtest/gtest.h>
 #include <opencv2/imgproc.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -135,6 +137,69 @@ TEST(PosePhoto, WhatIsNoCrossingStaysWhereItWasGiven)
 			EXPECT_EQ(p.u, corner[0].u);
 		}
 	EXPECT_TRUE(seen);
+}
+
+/// The floor through an aperture; its middle in focus.
+StateCamera WideOpen(double aperture_mm)
+{
+	StateCamera camera = TiltedCamera();
+	camera.aperture_diameter_mm = aperture_mm;
+	camera.focus_distance_mm = 650;
+	return camera;
+}
+
+TEST(PosePhoto, BlurredPointsCountAsTheirScatterSays)
+{
+	const StateCamera camera = WideOpen(20);
+	CameraPose pose;
+	pose.camera_from_world = SCENE.camera_from_world;
+	pose.location = SCENE.location;
+	pose.far_off = 100;
+	std::vector<Vector3d> places;
+	for (int i = -10; i < 10; ++i)
+		for (int j = -10; j < 10; ++j)
+			places.emplace_back(20 * i, 0, 20 * j);
+	for (const double of_blur : { 0.0, 0.2 })
+	{
+		std::vector<PosePoint> points = Photographed(camera, SCENE, places);
+		std::mt19937 random(11);
+		std::normal_distribution<double> gauss;
+		std::vector<double> true_sigmas;
+		double least = 1e9, most = 0;
+		pose.residuals.clear();
+		for (const PosePoint& p : points)
+		{
+			const double blur = BlurAt(camera, pose, 1, p.world), sigma = 0.1 * std::hypot(1, of_blur * blur);
+			least = std::min(least, blur);
+			most = std::max(most, blur);
+			true_sigmas.push_back(sigma / 0.1);
+			pose.residuals.emplace_back(sigma * gauss(random), sigma * gauss(random));
+		}
+		ASSERT_LT(least, 2);
+		ASSERT_GT(most, 15);
+		WeighByBlur(camera, pose, 1, points);
+		double mean_log = 0;
+		for (size_t i = 0; i < points.size(); ++i)
+			mean_log += std::log(points[i].sigma / true_sigmas[i]) / double(points.size());
+		// Only ratios matter. 400 points tell a variance to 1/20, that of either half of the blurs' range against the other to 1/10: three times that, of a root half.
+		for (size_t i = 0; i < points.size(); ++i)
+			EXPECT_NEAR(std::log(points[i].sigma / true_sigmas[i]), mean_log, 0.15) << of_blur;
+	}
+	// Too few to tell.
+	std::vector<PosePoint> few = Photographed(camera, SCENE, { places.begin(), places.begin() + 8 });
+	pose.residuals.resize(8);
+	WeighByBlur(camera, pose, 1, few);
+	for (const PosePoint& p : few)
+		EXPECT_EQ(p.sigma, 1);
+}
+
+TEST(PosePhoto, BlurredCrossingsAreFoundBetterWhereTheApertureIsKnown)
+{
+	// Gaussians of 4 px blur as much as discs of 16 px do; an aperture that is not known has none.
+	const cv::Mat photo = Floor(TiltedCamera(), 4);
+	const double known = SolvePoseInPhoto(WideOpen(60), photo, FourClicks(TiltedCamera()), 9, "points.csv").pose.rms;
+	const double unknown = SolvePoseInPhoto(WideOpen(0), photo, FourClicks(TiltedCamera()), 9, "points.csv").pose.rms;
+	EXPECT_LT(known, 0.8 * unknown);
 }
 
 TEST(PosePhoto, AnotherSizeIsRefused)
