@@ -25,6 +25,8 @@ const double SOME_CLIPPED = 0.02, MANY_CLIPPED = 0.2;
 const double SHARPENED = 0.1;
 /// Shift over radius. An exponent wrong by 1 % gives 0.004: m = e^1.01 = e + 0.01 e log e, at e = 1/2 0.0035, over the slope 2/(pi R).
 const double BENT = 0.004;
+/// An exponent within 1 % of another is not told from it: one standard deviation of what is anywhere between.
+const double UNTOLD = 0.01 / 1.7320508;
 const double CERTAIN = 3;   // sigmas
 /// Sharpening is seen where the blur is narrower than so many px; told from wider ones, as where the focus is at infinity, it would be an
 /// error of the edge's shape: 0.04 px of 13 are 1 px².
@@ -89,8 +91,8 @@ std::optional<Estimate> ExponentOf(const Calibration& c, const Estimate& bend)
 	if (!(bright > 0))
 		return std::nullopt;
 	const auto exponent = [&](double shift) { return ExponentOfShift(shift, dark / bright, std::max(reach / squares, LEAST_REACH)); };
-	const Estimate e{ exponent(bend.value), 0.5 * (exponent(bend.value + bend.sigma) - exponent(bend.value - bend.sigma)) };
-	return std::isfinite(e.value + e.sigma) ? std::optional(e) : std::nullopt;
+	const double e = exponent(bend.value), by_bend = 0.5 * (exponent(bend.value + bend.sigma) - exponent(bend.value - bend.sigma)), sigma = std::hypot(by_bend, UNTOLD * e);
+	return std::isfinite(e + sigma) ? std::optional(Estimate{ e, sigma }) : std::nullopt;
 }
 
 int SharpEdges(const Task& task)
