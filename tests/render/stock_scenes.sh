@@ -52,7 +52,7 @@ same=$(count same "$work/results") different=$(count DIFFERENT "$work/results")
 failed=$(count FAILED "$work/results") skipped=$(count skipped "$work/results")
 all=$(find "$scenes" -name '*.pov' | cat - "$work/own" | wc -l)
 [ "$((same + different + failed + skipped))" -eq "$all" ] || { echo "FAILED: of $all scenes not each has one line of results"; failures=1; }
-echo "$same scenes are the same, $different are not, $failed fail in ours alone, $skipped skipped (no scene, or slow)"
+echo "$same scenes are the same, $different are not, $failed fail in ours alone, $skipped skipped (no scene, slow, or stock errs itself)"
 grep -E '^(DIFFERENT|FAILED) ' "$work/results"
 [ "$same" -ge $MINIMUM ] || { echo "FAILED: fewer than $MINIMUM"; failures=1; }
 [ "$different" -eq 0 ] && [ "$failed" -eq 0 ] || failures=1
