@@ -58,14 +58,12 @@ const GlassCameras& Made()
 
 TEST(LensFit, LeavesOutWhatTheDesignSays)
 {
-	// DESIGN.md, section 8, by another program that fitted the states too: six 0.57 px, sixteen 0.10 px. With the states as they are
-	// a fifth more is left over.
-	EXPECT_LT(Made().six.rms_mm, 1.2 * 0.57 * PITCH);
-	EXPECT_LT(Made().sixteen.rms_mm, 1.25 * 0.10 * PITCH);
-	EXPECT_GT(Made().none.rms_mm, 3 * PITCH);
-	// Even in the worst state.
-	for (const double state : Made().sixteen.state_rms_mm)
-		EXPECT_LT(state, 0.14 * PITCH);
+	// DESIGN.md, section 8: six numbers leave less than field curvature alone, 0.76 px with the states fitted too; here they are held, which
+	// leaves more. Sixteen leave a tenth of the ray error of a thin lens, in every state.
+	EXPECT_LT(Made().six.rms_mm, 0.76 * PITCH);
+	for (size_t s = 0; s < Made().sixteen.state_rms_mm.size(); ++s)
+		EXPECT_LT(Made().sixteen.state_rms_mm[s], 0.1 * Made().none.state_rms_mm[s]);
+	EXPECT_LT(Made().sixteen.rms_mm, Made().six.rms_mm);
 }
 
 TEST(LensFit, IsTheLensesOwnAndPredictsOtherStates)
@@ -204,17 +202,17 @@ FreeFit FitStatesToo(int terms)
 TEST(LensFit, TiltsFittedFreelyAreTheTrueOnes)
 {
 	// DESIGN.md, section 8: six numbers 0.009 and 0.011 degrees off, 0.57 px; sixteen 0.001 and 0.002, 0.10 px. What six leave out is
-	// systematic, and which rays stand for the bundle is ours: with the corners weighed four times as much it is 0.06 degrees. Sixteen: thrice
-	// the design's.
+	// systematic, and which rays stand for the bundle is ours: with the corners weighed four times as much it is 0.06 degrees. So 0.02, what photographs
+	// of such a lens shall give. Sixteen: thrice the design's. What is left of the rays: as printed, to its last digit.
 	const FreeFit six = FitStatesToo(ThirdOrderTerms);
-	EXPECT_NEAR(six.plus, 5, 0.03);
-	EXPECT_NEAR(six.minus, -5, 0.03);
-	EXPECT_LT(six.rms, 0.6 * PITCH);
+	EXPECT_NEAR(six.plus, 5, 0.02);
+	EXPECT_NEAR(six.minus, -5, 0.02);
+	EXPECT_LT(six.rms, 0.575 * PITCH);
 	const FreeFit sixteen = FitStatesToo(AberrationTerms);
 	EXPECT_NEAR(sixteen.plus, 5, 0.006);
 	EXPECT_NEAR(sixteen.minus, -5, 0.006);
 	EXPECT_NEAR(sixteen.untilted, 0, 0.006);
-	EXPECT_LT(sixteen.rms, 0.12 * PITCH);
+	EXPECT_LT(sixteen.rms, 0.105 * PITCH);
 	std::printf("six numbers: %.4f %.4f degrees, %.3f px; sixteen: %.4f %.4f degrees, %.3f px\n", six.plus - 5, six.minus + 5, six.rms / PITCH, sixteen.plus - 5,
 		sixteen.minus + 5, sixteen.rms / PITCH);
 }
