@@ -205,7 +205,9 @@ try
 
 	// Upstream leaves its memory behind at parse errors, and deletes its ShelloutProcessing, which lacks a virtual
 	// destructor, through a pointer to the base at the end of every render: neither is looked for.
-	setenv("ASAN_OPTIONS", "detect_leaks=0:new_delete_type_mismatch=0", 0);
+	// (Of an option that is given twice the last counts.)
+	const char* given = std::getenv("ASAN_OPTIONS");
+	setenv("ASAN_OPTIONS", (std::string(given ? given : "") + ":detect_leaks=0:new_delete_type_mismatch=0").c_str(), 1);
 	setenv("UBSAN_OPTIONS", "print_stacktrace=1", 0);
 	// What crashes is to leave no cores behind; limits are inherited.
 	const rlimit no_core = { 0, 0 };
