@@ -58,12 +58,16 @@ const GlassCameras& Made()
 
 TEST(LensFit, LeavesOutWhatTheDesignSays)
 {
-	// DESIGN.md, section 8: six numbers leave less than field curvature alone, 0.76 px with the states fitted too; here they are held, which
-	// leaves more. Sixteen leave a tenth of the ray error of a thin lens, in every state.
-	EXPECT_LT(Made().six.rms_mm, 0.76 * PITCH);
-	for (size_t s = 0; s < Made().sixteen.state_rms_mm.size(); ++s)
-		EXPECT_LT(Made().sixteen.state_rms_mm[s], 0.1 * Made().none.state_rms_mm[s]);
-	EXPECT_LT(Made().sixteen.rms_mm, Made().six.rms_mm);
+	// DESIGN.md, section 8, by another program that fitted the states too: six 0.57 px, sixteen 0.10 px. With the states as they are
+	// a fifth more is left over.
+	EXPECT_LT(Made().six.rms_mm, 1.2 * 0.57 * PITCH);
+	EXPECT_LT(Made().sixteen.rms_mm, 1.25 * 0.10 * PITCH);
+	EXPECT_GT(Made().none.rms_mm, 3 * PITCH);
+	// Even in the worst state.
+	for (const double state : Made().sixteen.state_rms_mm)
+		EXPECT_LT(state, 0.14 * PITCH);
+	// A tenth of the ray error of a thin lens, as the design says.
+	EXPECT_LT(Made().sixteen.rms_mm, 0.1 * Made().none.rms_mm);
 }
 
 TEST(LensFit, IsTheLensesOwnAndPredictsOtherStates)

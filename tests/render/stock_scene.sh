@@ -26,19 +26,16 @@ pixels() {
 
 # known_fault: whether ours stopped where the list says that stock itself errs in this scene.
 known_fault() {
-	sed -n 's/^\([^#|]*[^#| ]\) *| *\(.*\)$/\1\t\2/p' "$here/faults-of-others.txt" | while IFS="$(printf '\t')" read -r file summary; do
-		case $scene in */"$file") grep -qE -e "^SUMMARY: $summary" "$work/$id-ours.log" && echo known ;; esac
-	done | grep -q known
+	while IFS='|' read -r file summary; do
+		case $scene in */"${file% }") grep -qE -e "^SUMMARY: ${summary# }" "$work/$id-ours.log" && return ;; esac
+	done < "$here/faults-of-others.txt"
+	return 1
 }
 
 if ! render "$stock" stock "$limit"; then
 	echo "skipped $scene"
 elif ! render "$ours" ours $((limit * 10)); then
-	if known_fault; then
-		echo "skipped $scene"
-	else
-		echo "FAILED $scene (log $work/$id-ours.log)"
-	fi
+	known_fault && echo "skipped $scene" || echo "FAILED $scene (log $work/$id-ours.log)"
 elif [ "$(pixels stock)" = "$(pixels ours)" ]; then
 	echo "same $scene"
 	rm -f "$work/$id"-*
