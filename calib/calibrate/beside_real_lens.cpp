@@ -36,17 +36,22 @@ std::vector<double> OfEach(const std::vector<const RealLens*>& lenses, Number nu
 	return numbers;
 }
 
-/// What both lenses state of the glass.
-void WidenGlass(const RealLens& other, RealLens& told)
-{
-	for (Estimate RealLens::* number : { &RealLens::focal_length_mm, &RealLens::pupil_magnification, &RealLens::aperture_diameter_mm, &RealLens::opening_on_axis_mm })
-		Widen({ (other.*number).value }, told.*number);
-}
-
 void WidenPoint(const Point& other, const Point& value, Point& sigma)
 {
 	for (size_t axis = 0; axis < value.size(); ++axis)
 		sigma[axis] = std::hypot(sigma[axis], other[axis] - value[axis]);
+}
+
+/// What both lenses state of the glass and of where it stands: its exit pupil is m times as far as what the pictures tell.
+void WidenGlass(const RealLens& other, RealLens& told)
+{
+	for (Estimate RealLens::* number : { &RealLens::focal_length_mm, &RealLens::pupil_magnification, &RealLens::aperture_diameter_mm, &RealLens::opening_on_axis_mm })
+		Widen({ (other.*number).value }, told.*number);
+	for (size_t s = 0; s < told.states.size(); ++s)
+	{
+		Widen({ other.states[s].image_distance_mm.value }, told.states[s].image_distance_mm);
+		WidenPoint(other.states[s].principal_point, told.states[s].principal_point, told.states[s].principal_point_sigma);
+	}
 }
 
 /// By that part of the distance.
@@ -72,12 +77,8 @@ void WidenSixteen(const RealLens& six, RealLens& sixteen)
 	}
 	for (size_t s = 0; s < sixteen.states.size(); ++s)
 	{
-		const RealLensState& other = six.states[s];
-		RealLensState& told = sixteen.states[s];
-		Widen({ other.image_distance_mm.value }, told.image_distance_mm);
-		WidenPoint(other.principal_point, told.principal_point, told.principal_point_sigma);
-		WidenTilt(other.lens, 1, told.lens);
-		Widen({ other.lens.focal_length.value }, told.lens.focal_length);
+		WidenTilt(six.states[s].lens, 1, sixteen.states[s].lens);
+		Widen({ six.states[s].lens.focal_length.value }, sixteen.states[s].lens.focal_length);
 	}
 }
 

@@ -35,7 +35,7 @@ const int ENOUGH_SHARP = 20;
 /// What sharpening takes off the squares of blurs falls from narrow ones to nothing at wide ones; what the fit sees of it lies between: narrow ones miss by up to so many times that.
 const double MOST_OF_SHARPENING = 2;
 /// Relative change of a blur's square, over the bend that is seen: a tone curve makes blurs, and the aperture, wrong by 1.7 times its bend
-/// (closed_loop --random 1 --first 3 --light tone-curve: 8 % and 0.047), squares by twice that.
+/// (closed_loop --random 1 --first 3 --light tone-curve: 7 % and 0.043), squares by twice that.
 const double WIDTH_OF_BEND = 3.5;
 const double LEAST_REACH = 2;   // of ShiftOfExponent; edges whose neighbours lie nearer are fitted with those
 /// The power that its curve is like between middle grey and white: 2.4 c/(c + 0.055) at a code c of 0.8.

@@ -15,6 +15,7 @@
 #include <spdlog/spdlog.h>
 
 #include <atomic>
+#include <cstdio>
 #include <ctime>
 #include <memory>
 
@@ -75,6 +76,7 @@ void Once(const CalibrateRun& run)
 	run.Write(c, packed, {});
 	fmt::print("{}", SummaryTable(c));
 	fmt::print("written to {}\n", run.words.out);
+	std::fflush(stdout);   // both may go to one file
 	spdlog::info("done in {:.1f} s", time.Seconds());
 }
 

@@ -17,7 +17,7 @@ std::vector<ProfileBin> BinnedProfile(const std::vector<EdgeSample>& samples, co
 	for (const EdgeSample& s : samples)
 	{
 		const double x = s.x - fit.offset - fit.slope * s.s;
-		const double shade = 1 + fit.shade_x * s.x + fit.shade_s * s.s;
+		const double shade = 1 + fit.shading.x * s.x + fit.shading.s * s.s;
 		ProfileBin& bin = bins[std::lround(x / width)];
 		bin.x += x;
 		bin.value += s.value / shade;

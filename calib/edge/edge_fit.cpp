@@ -16,17 +16,25 @@ namespace tiltcal
 namespace
 {
 
-enum { LOW, HIGH, SHADE_X, SHADE_S, OFFSET, SLOPE, RADIUS, PARAMETERS };
+enum { LOW, HIGH, OFFSET, SLOPE, RADIUS, PARAMETERS };
 using Vector = Eigen::Matrix<double, PARAMETERS, 1>;
 using Matrix = Eigen::Matrix<double, PARAMETERS, PARAMETERS>;
 
 const double LEAST_SOFT = -2;   // of a soft radius (soft_radius.h): steeper than any sharpening makes an edge
 const double HUBER = 2.5;   // in standard deviations: JPEG blocks and specks, not the shape
 
-double Predict(const Vector& p, const EdgeSample& sample, const EdgeProfile& profile, Vector* gradient)
+/// What the parameters are fitted to.
+struct Observed
+{
+	const std::vector<EdgeSample>& samples;
+	const EdgeProfile& profile;
+	const EdgeShading& shading;
+};
+
+double Predict(const Vector& p, const EdgeSample& sample, const EdgeProfile& profile, const EdgeShading& shading, Vector* gradient)
 {
 	const EdgeResponse e = SoftResponse(p[RADIUS], [&](double radius) { return profile.At(sample, p[OFFSET], p[SLOPE], radius); });
-	const double shade = 1 + p[SHADE_X] * sample.x + p[SHADE_S] * sample.s;
+	const double shade = 1 + shading.x * sample.x + shading.s * sample.s;
 	const double step = p[HIGH] - p[LOW];
 	const double flat = p[LOW] + step * e.value;
 	if (gradient)
@@ -34,8 +42,6 @@ double Predict(const Vector& p, const EdgeSample& sample, const EdgeProfile& pro
 		Vector& g = *gradient;
 		g[LOW] = shade * (1 - e.value);
 		g[HIGH] = shade * e.value;
-		g[SHADE_X] = flat * sample.x;
-		g[SHADE_S] = flat * sample.s;
 		g[OFFSET] = -shade * step * e.d_position;
 		g[SLOPE] = g[OFFSET] * sample.s;
 		g[RADIUS] = shade * step * e.d_radius;
@@ -53,13 +59,13 @@ struct Normal
 };
 
 /// Normal equations of the robust problem at p.
-Normal Assemble(const Vector& p, const std::vector<EdgeSample>& samples, const EdgeProfile& profile, double scale)
+Normal Assemble(const Vector& p, const Observed& of, double scale)
 {
 	Normal n;
 	Vector g;
-	for (const EdgeSample& sample : samples)
+	for (const EdgeSample& sample : of.samples)
 	{
-		const double r = sample.value - Predict(p, sample, profile, &g);
+		const double r = sample.value - Predict(p, sample, of.profile, of.shading, &g);
 		const double u = std::abs(r) / scale;
 		const double w = u <= HUBER ? 1 : HUBER / u;
 		n.cost += u <= HUBER ? u * u : 2 * HUBER * u - HUBER * HUBER;
@@ -72,21 +78,21 @@ Normal Assemble(const Vector& p, const std::vector<EdgeSample>& samples, const E
 	return n;
 }
 
-/// RobustSigma, and at least what the shape of a straight edge leaves out, so that in a picture without noise this is not taken for specks.
-double ResidualScale(const Vector& p, const std::vector<EdgeSample>& samples, const EdgeProfile& profile)
+/// RobustSigma, and at least what the shape of the blur leaves out: a lens's is no even disc. What is not counted in full (HUBER) lies beyond 5 % of the step.
+double ResidualScale(const Vector& p, const Observed& of)
 {
 	std::vector<double> r;
-	r.reserve(samples.size());
-	for (const EdgeSample& sample : samples)
-		r.push_back(sample.value - Predict(p, sample, profile, nullptr));
-	return std::max(RobustSigma(std::move(r)), 2e-3 * std::abs(p[HIGH] - p[LOW]) + 1e-12);
+	r.reserve(of.samples.size());
+	for (const EdgeSample& sample : of.samples)
+		r.push_back(sample.value - Predict(p, sample, of.profile, of.shading, nullptr));
+	return std::max(RobustSigma(std::move(r)), 0.02 * std::abs(p[HIGH] - p[LOW]) + 1e-12);
 }
 
 /// One Levenberg-Marquardt descent at a fixed robust scale. False: singular.
-bool Descend(Vector& p, const std::vector<EdgeSample>& samples, const EdgeProfile& profile, double scale, int iterations)
+bool Descend(Vector& p, const Observed& of, double scale, int iterations)
 {
 	double lambda = 1e-3;
-	Normal n = Assemble(p, samples, profile, scale);
+	Normal n = Assemble(p, of, scale);
 	for (int i = 0; i < iterations; ++i)
 	{
 		Matrix A = n.JtJ;
@@ -97,7 +103,7 @@ bool Descend(Vector& p, const std::vector<EdgeSample>& samples, const EdgeProfil
 		Vector q = p + step;
 		q[RADIUS] = std::max(q[RADIUS], LEAST_SOFT);
 		// Steps are nearly always good, so the derivatives are computed with the cost.
-		const Normal next = Assemble(q, samples, profile, scale);
+		const Normal next = Assemble(q, of, scale);
 		if (next.cost <= n.cost)
 		{
 			const bool settled = std::abs(q[RADIUS] - p[RADIUS]) < 1e-3 && std::abs(step[OFFSET]) < 1e-3
@@ -146,7 +152,7 @@ EdgeResponse LoneEdge::At(const EdgeSample& sample, double offset, double slope,
 	return PixelEdgeResponse(sample.x - offset - slope * sample.s, radius, box_a, box_b);
 }
 
-EdgeFit FitEdge(const std::vector<EdgeSample>& samples, const EdgeProfile& profile, double start_radius)
+EdgeFit FitEdge(const std::vector<EdgeSample>& samples, const EdgeProfile& profile, const EdgeShading& shading, double start_radius)
 {
 	EdgeFit fit;
 	if (samples.size() < 40)
@@ -155,15 +161,16 @@ EdgeFit FitEdge(const std::vector<EdgeSample>& samples, const EdgeProfile& profi
 	if (!(p[HIGH] - p[LOW] > 0.01 * std::abs(p[HIGH])))
 		return fit;
 
+	const Observed of{ samples, profile, shading };
 	// The robust scale of the start says little: descend on a coarse one first.
 	double scale = 0.25 * (p[HIGH] - p[LOW]);
 	for (int round = 0; round < 3; ++round)
 	{
-		if (!Descend(p, samples, profile, scale, 30))
+		if (!Descend(p, of, scale, 30))
 			return fit;
-		scale = ResidualScale(p, samples, profile);
+		scale = ResidualScale(p, of);
 	}
-	const Normal n = Assemble(p, samples, profile, scale);
+	const Normal n = Assemble(p, of, scale);
 	const double variance = n.squares / std::max(n.weight - PARAMETERS, 1.0);
 	const Matrix covariance = n.JtJ.ldlt().solve(Matrix::Identity()) * variance;
 	if (!covariance.allFinite() || !(p[HIGH] > p[LOW]))
@@ -171,8 +178,7 @@ EdgeFit FitEdge(const std::vector<EdgeSample>& samples, const EdgeProfile& profi
 
 	fit.low = p[LOW];
 	fit.high = p[HIGH];
-	fit.shade_x = p[SHADE_X];
-	fit.shade_s = p[SHADE_S];
+	fit.shading = shading;
 	fit.offset = p[OFFSET];
 	fit.slope = p[SLOPE];
 	fit.radius = SignedRoot(SquareOfSoft(p[RADIUS]));
@@ -188,14 +194,14 @@ EdgeFit FitEdge(const std::vector<EdgeSample>& samples, const EdgeProfile& profi
 EdgeChange FirstOrderChange(const std::vector<EdgeSample>& samples, const EdgeProfile& profile, const EdgeProfile& other, const EdgeFit& fit)
 {
 	Vector p, g;
-	p << fit.low, fit.high, fit.shade_x, fit.shade_s, fit.offset, fit.slope, SoftOfSquare(SignedSquare(fit.radius));
+	p << fit.low, fit.high, fit.offset, fit.slope, SoftOfSquare(SignedSquare(fit.radius));
 	Matrix JtJ = Matrix::Zero();
 	Vector Jtr = Vector::Zero();
 	for (const EdgeSample& sample : samples)
 	{
-		const double value = Predict(p, sample, profile, &g);
+		const double value = Predict(p, sample, profile, fit.shading, &g);
 		JtJ += g * g.transpose();
-		Jtr += (Predict(p, sample, other, nullptr) - value) * g;
+		Jtr += (Predict(p, sample, other, fit.shading, nullptr) - value) * g;
 	}
 	const Vector shift = JtJ.ldlt().solve(Jtr);
 	return { shift[OFFSET], shift[SLOPE], shift[RADIUS] };

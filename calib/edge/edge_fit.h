@@ -20,11 +20,17 @@ struct EdgeSample
 	double value;  ///< linear light
 };
 
+/// How brightness changes around an edge (vignetting, the lamp), relative and per pixel, across it and along.
+struct EdgeShading
+{
+	double x = 0, s = 0;
+};
+
 struct EdgeFit
 {
 	bool valid = false;
 	double low = 0, high = 0;           ///< plateaus at the edge's middle, linear light
-	double shade_x = 0, shade_s = 0;    ///< relative change of brightness per pixel (vignetting)
+	EdgeShading shading;                    ///< as it was given
 	double offset = 0, slope = 0;       ///< the edge lies at x = offset + slope s
 	double radius = 0;                  ///< of the blur disc; negative: its square is (soft_radius.h)
 	double offset_sigma = 0, slope_sigma = 0;
@@ -52,11 +58,12 @@ private:
 	double box_a, box_b;
 };
 
-/// Model: value = (1 + shade_x x + shade_s s) (low + (high - low) E), E from `profile`. Levenberg-Marquardt with
+/// Model: value = (1 + shading.x x + shading.s s) (low + (high - low) E), E from `profile`. Levenberg-Marquardt with
 /// Huber weights; sigmas from the covariance rescaled by the residuals. A radius below
 /// about 0.3 px is not told from 0, and its square may come out negative.
+/// The shading is not fitted: a blur with a tail to one side (coma) looks like one, but only where the tail is bright.
 /// `start_radius` in pixels. Not valid: fewer than 40 samples, no contrast, no convergence.
-EdgeFit FitEdge(const std::vector<EdgeSample>& samples, const EdgeProfile& profile, double start_radius);
+EdgeFit FitEdge(const std::vector<EdgeSample>& samples, const EdgeProfile& profile, const EdgeShading& shading, double start_radius);
 
 /// A change of a fit; of the soft radius.
 struct EdgeChange

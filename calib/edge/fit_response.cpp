@@ -29,25 +29,25 @@ Eigen::VectorXd Samples(double reach)
 /// A pixel's box, with half of a point's variance on each of the two: a box of the width a has a^2/12.
 double Widened(double n, double own) { return std::sqrt(n * n + 6 * own); }
 
-/// Of the light at the samples by place, soft diameter, both plateaus and a gradient.
-Eigen::MatrixXd Derivatives(const Eigen::VectorXd& x, double nx, double ny, double soft, double dark)
+/// Of the light at the samples by place, soft diameter and both plateaus.
+Eigen::MatrixXd Derivatives(const Eigen::VectorXd& x, double nx, double ny, double soft)
 {
-	Eigen::MatrixXd by(x.size(), 5);
+	Eigen::MatrixXd by(x.size(), 4);
 	for (Eigen::Index i = 0; i < x.size(); ++i)
 	{
 		const EdgeResponse e = SoftResponse(0.5 * soft, [&](double radius) { return PixelEdgeResponse(x[i], radius, std::abs(nx), std::abs(ny)); });
-		by.row(i) << -e.d_position, 0.5 * e.d_radius, 1 - e.value, e.value, x[i] * (dark + e.value);
+		by.row(i) << -e.d_position, 0.5 * e.d_radius, 1 - e.value, e.value;
 	}
 	return by;
 }
 
 }
 
-FitResponse::FitResponse(double nx, double ny, double diameter, double reach, double own, double dark)
+FitResponse::FitResponse(double nx, double ny, double diameter, double reach, double own)
 {
 	const Eigen::VectorXd x = Samples(reach);
-	// What a change of the light at each sample does to the five.
-	const Eigen::MatrixXd pseudo_inverse = Derivatives(x, nx, ny, SoftDiameter(diameter), dark).colPivHouseholderQr().solve(Eigen::MatrixXd::Identity(SAMPLES, SAMPLES));
+	// What a change of the light at each sample does to the four.
+	const Eigen::MatrixXd pseudo_inverse = Derivatives(x, nx, ny, SoftDiameter(diameter)).colPivHouseholderQr().solve(Eigen::MatrixXd::Identity(SAMPLES, SAMPLES));
 	const double box_a = Widened(nx, own), box_b = Widened(ny, own), most = reach + box_a + box_b;
 	first = -most;
 	step = 2 * most / (NODES - 1);

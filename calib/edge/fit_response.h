@@ -12,13 +12,12 @@ namespace tiltcal
 
 /// To first order about the fit that was made, the fit's place and soft diameter (soft_radius.h) are sums over the light: a point of light that
 /// falls x px to the bright side of the fitted line, all light being 1, moves them by place(x) and soft(x). By least squares over pixels at
-/// distances up to `reach`, with both plateaus and a gradient of the lighting free. So a halo, a tail or a sharp core counts as the fit counts it, not by its variance.
+/// distances up to `reach`, with both plateaus free. So a halo, a tail or a sharp core counts as the fit counts it, not by its variance.
 class FitResponse
 {
 public:
 	/// An edge with the unit normal (nx, ny) and the fitted blur diameter (its sign as in Edge::blur), px; a point is itself a blur of the variance `own` px^2.
-	/// `dark`: the dark side's light over the step's.
-	FitResponse(double nx, double ny, double diameter, double reach, double own, double dark);
+	FitResponse(double nx, double ny, double diameter, double reach, double own);
 
 	/// At a distance x, and the derivative by x. 0 far beyond the reach, where light is plateau.
 	struct Value { double value, derivative; };

@@ -26,7 +26,7 @@ double ShiftOfExponent(double exponent, double dark, double reach)
 	for (double x = -most; x <= most; x += 0.5)
 		for (const double s : { -1.0, 0.0, 1.0 })
 			samples.push_back({ x, s, std::pow(dark + (1 - dark) * PixelEdgeResponse(x, RADIUS, 1, 0).value, exponent) });
-	const EdgeFit fit = FitEdge(samples, LoneEdge(1, 0), RADIUS);
+	const EdgeFit fit = FitEdge(samples, LoneEdge(1, 0), {}, RADIUS);
 	return fit.valid ? fit.offset / RADIUS : std::numeric_limits<double>::quiet_NaN();
 }
 

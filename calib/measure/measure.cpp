@@ -47,6 +47,7 @@ struct Reduced
 	cv::Mat grey;
 	double factor = 1;      ///< full size over reduced size
 	CornerGrid grid;
+	LightField light;
 };
 
 Reduced Reduce(const cv::Mat& grey, const Board& board, const Photo& photo)
@@ -64,13 +65,14 @@ Reduced Reduce(const cv::Mat& grey, const Board& board, const Photo& photo)
 	// Whole pixels only: each reduced one is the mean of k x k.
 	if (k > 1)
 		cv::resize(grey(cv::Rect(0, 0, grey.cols / k * k, grey.rows / k * k)), reduced, cv::Size(grey.cols / k, grey.rows / k), 0, 0, cv::INTER_AREA);
-	return { reduced, double(k), CornerGrid(small, board) };
+	const CornerGrid grid(small, board);
+	return { reduced, double(k), grid, LightField(reduced, grid) };
 }
 
 /// MeasureBlurredEdge with lengths of the full picture.
 EdgeOutcome MeasureReduced(const Reduced& r, const EdgePlace& place, double start_radius, const Vec2& growth, bool last, Edge& edge)
 {
-	const EdgeOutcome outcome = MeasureBlurredEdge(r.grey, r.grid, place, start_radius / r.factor, growth, last, edge);
+	const EdgeOutcome outcome = MeasureBlurredEdge(r.grey, r.grid, r.light, place, start_radius / r.factor, growth, last, edge);
 	edge.x = (edge.x + 0.5) * r.factor - 0.5;
 	edge.y = (edge.y + 0.5) * r.factor - 0.5;
 	for (double* length : { &edge.blur, &edge.blur_sigma, &edge.offset_sigma, &edge.square_px, &edge.reach, &edge.span })
@@ -78,11 +80,11 @@ EdgeOutcome MeasureReduced(const Reduced& r, const EdgePlace& place, double star
 	return outcome;
 }
 
-void MeasureOne(const cv::Mat& grey, const CornerGrid& grid, const Reduced& reduced, Measured& m)
+void MeasureOne(const cv::Mat& grey, const CornerGrid& grid, const LightField& light, const Reduced& reduced, Measured& m)
 {
 	// Large pictures are not searched at full size for edges that the reduced one shows to run into each other.
-	const bool alone = reduced.factor == 1 || MeasureLoneEdge(reduced.grey, reduced.grid, m.place, m.edge) == EdgeOutcome::MEASURED;
-	m.outcome = alone ? MeasureLoneEdge(grey, grid, m.place, m.edge) : EdgeOutcome::TOO_BLURRED;
+	const bool alone = reduced.factor == 1 || MeasureLoneEdge(reduced.grey, reduced.grid, reduced.light, m.place, m.edge) == EdgeOutcome::MEASURED;
+	m.outcome = alone ? MeasureLoneEdge(grey, grid, light, m.place, m.edge) : EdgeOutcome::TOO_BLURRED;
 	if (m.outcome == EdgeOutcome::MEASURED)
 		return;
 	m.with_neighbours = true;
@@ -198,6 +200,7 @@ void RefuseTooBlurred(const std::vector<Measured>& all, const std::string& file)
 void MeasureEdges(const cv::Mat& grey, const Board& board, Photo& photo, const EdgeChoice& choice)
 {
 	const CornerGrid grid(photo, board);
+	const LightField light(grey, grid);
 	const Reduced reduced = Reduce(grey, board, photo);
 	std::vector<Measured> all;
 	for (const EdgePlace& place : SpreadOrder(board, choice.phase))
@@ -208,7 +211,7 @@ void MeasureEdges(const cv::Mat& grey, const Board& board, Photo& photo, const E
 	while (found < wanted && tried < all.size())
 	{
 		const size_t end = std::min(tried + wanted - found, all.size());
-		Parallel(tried, end, [&](size_t k) { MeasureOne(grey, grid, reduced, all[k]); });
+		Parallel(tried, end, [&](size_t k) { MeasureOne(grey, grid, light, reduced, all[k]); });
 		for (; tried < end; ++tried)
 			found += all[tried].outcome == EdgeOutcome::MEASURED;
 	}

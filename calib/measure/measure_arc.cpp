@@ -86,9 +86,9 @@ struct CircleView::Arc
 	}
 };
 
-CircleView::CircleView(const cv::Mat& grey, const Board& board, const GridMap& map, const Corner& f, double r, bool is_bright)
+CircleView::CircleView(const cv::Mat& grey, const Board& board, const GridMap& map, const LightField& light, const Corner& f, double r, bool is_bright)
 	: place(f.column, f.row), radius(r), bright(is_bright), column(f.column), row(f.row), jacobian(map.Jacobian(place)),
-	outline(map, place, r, Vec2(f.x, f.y)), smaller_radius(outline.SmallerRadius())
+	outline(map, place, r, Vec2(f.x, f.y)), light_change(light.Change(place)), smaller_radius(outline.SmallerRadius())
 {
 	const Vec2 centre(f.x, f.y);
 	const Eigen::Matrix2d inverse = jacobian.inverse();
@@ -160,7 +160,7 @@ EdgeOutcome CircleView::Measure(int index, int arcs, double start_blur, bool rou
 		std::vector<EdgeSample> thinned;
 		for (size_t k = 0; k < samples.size(); k += step)
 			thinned.push_back(samples[k]);
-		fit = FitEdge(thinned, arc.Profile(outline, bright, blur), start_blur > 0 || round > 0 ? blur : 0.5 * blur);
+		fit = FitEdge(thinned, arc.Profile(outline, bright, blur), ShadingOfEdge(light_change, (bright ? -1 : 1) * outline.Outward(arc.middle)), start_blur > 0 || round > 0 ? blur : 0.5 * blur);
 		if (!fit.valid)
 			return EdgeOutcome::FAILED;
 		settled = std::abs(std::max(fit.radius, 0.0) - blur) < 0.05 * blur + 0.1;

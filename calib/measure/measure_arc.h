@@ -6,6 +6,7 @@
 #include <tiltcal/photo.h>
 #include "measure/circle_outline.h"
 #include "edge/edge_fit.h"
+#include "measure/light_field.h"
 #include "measure/measure_edge.h"
 
 #include <opencv2/core.hpp>
@@ -20,7 +21,7 @@ class CircleView
 {
 public:
 	/// `feature`: its centre; `radius` of the grid's circles in units of the spacing.
-	CircleView(const cv::Mat& grey, const Board& board, const GridMap& map, const Corner& feature, double radius, bool bright);
+	CircleView(const cv::Mat& grey, const Board& board, const GridMap& map, const LightField& light, const Corner& feature, double radius, bool bright);
 
 	/// Fits arc `arc` of `arcs` (edge_fit.h), from `start_blur` px (radius; 0: unknown). `edge` receives everything of board.h but its profile.
 	/// `rough`: fewer pixels. TOO_BLURRED: edge.blur and edge.square_px are filled in.
@@ -53,6 +54,7 @@ private:
 	int column, row;
 	Eigen::Matrix2d jacobian;
 	CircleOutline outline;
+	Vec2 light_change;   // LightField::Change
 	double smaller_radius;
 	std::vector<Pixel> pixels;
 };

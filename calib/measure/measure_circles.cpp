@@ -57,8 +57,9 @@ void Parallel(size_t from, size_t to, const Function& each)
 void Look(Grid& grid)
 {
 	const GridMap map(grid.centres);
+	const LightField light(grid.grey, grid.board, map, grid.centres);
 	std::vector<std::vector<CircleView>> views(grid.centres.size());
-	Parallel(0, views.size(), [&](size_t k) { views[k].emplace_back(grid.grey, grid.board, map, grid.centres[k], grid.radius, grid.bright); });
+	Parallel(0, views.size(), [&](size_t k) { views[k].emplace_back(grid.grey, grid.board, map, light, grid.centres[k], grid.radius, grid.bright); });
 	grid.views.clear();
 	for (auto& v : views)
 		grid.views.push_back(std::move(v[0]));

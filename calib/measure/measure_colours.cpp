@@ -43,11 +43,11 @@ std::vector<const Edge*> Spread(const Photo& photo, const Board& board)
 }
 
 /// False: not all three were measured.
-bool Measure(const std::vector<cv::Mat>& channels, const CornerGrid& grid, const Edge& edge, ColourEdge& out)
+bool Measure(const std::vector<cv::Mat>& channels, const CornerGrid& grid, const std::vector<LightField>& light, const Edge& edge, ColourEdge& out)
 {
 	Edge fits[3];   // blue, green, red
 	for (size_t k = 0; k < 3; ++k)
-		if (MeasureLoneEdge(channels[k], grid, { edge.column, edge.row, edge.along_columns }, fits[k]) != EdgeOutcome::MEASURED)
+		if (MeasureLoneEdge(channels[k], grid, light[k], { edge.column, edge.row, edge.along_columns }, fits[k]) != EdgeOutcome::MEASURED)
 			return false;
 	out.green = fits[1];
 	out.green.profile.clear();
@@ -77,13 +77,16 @@ void MeasureColours(const cv::Mat& linear, const Board& board, Photo& photo)
 	if (!photo.coloured || !board.IsCheckerboard() || photo.facts.subsampled_colour)
 		return;
 	const CornerGrid grid(photo, board);
+	std::vector<LightField> light;
+	for (const cv::Mat& channel : channels)
+		light.emplace_back(channel, grid);
 	const std::vector<const Edge*> edges = Spread(photo, board);
 	std::vector<ColourEdge> measured(edges.size());
 	std::vector<char> good(edges.size(), 0);
 	cv::parallel_for_(cv::Range(0, int(edges.size())), [&](const cv::Range& range)
 	{
 		for (int k = range.start; k < range.end; ++k)
-			good[size_t(k)] = Measure(channels, grid, *edges[size_t(k)], measured[size_t(k)]);
+			good[size_t(k)] = Measure(channels, grid, light, *edges[size_t(k)], measured[size_t(k)]);
 	});
 	for (size_t k = 0; k < edges.size(); ++k)
 		if (good[k])

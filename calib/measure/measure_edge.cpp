@@ -141,9 +141,14 @@ Axes AxesOf(const cv::Mat& grey, const Surroundings& s)
 	return axes;
 }
 
-bool Trustworthy(const EdgeFit& fit, double gap)
+/// (column, row).
+Vec2 MiddleOf(const EdgePlace& place) { return { place.column + 0.5 * place.along_columns, place.row + 0.5 * !place.along_columns }; }
+
+/// A corner that was found beside its place moves the middle of an edge and turns it about its other end: both as far as that.
+bool Trustworthy(const EdgeFit& fit, const Axes& axes)
 {
-	return std::abs(fit.offset) <= 0.15 * gap && std::abs(fit.slope) <= 0.1 && fit.radius_sigma <= 0.25 * fit.radius + 0.5;
+	const double most = 0.15 * axes.gap;
+	return std::abs(fit.offset) <= most && std::abs(fit.slope) <= std::min(most / (0.5 * axes.length), 0.25) && fit.radius_sigma <= 0.25 * fit.radius + 0.5;
 }
 
 /// What was fitted, at the middle of the samples.
@@ -311,7 +316,7 @@ void AddNeighboursUncertainty(const Lines& lines, const std::vector<EdgeSample>&
 
 }
 
-EdgeOutcome MeasureLoneEdge(const cv::Mat& grey, const CornerGrid& grid, const EdgePlace& place, Edge& edge)
+EdgeOutcome MeasureLoneEdge(const cv::Mat& grey, const CornerGrid& grid, const LightField& light, const EdgePlace& place, Edge& edge)
 {
 	const Surroundings s = SurroundingsOf(grid, place.column, place.row, place.along_columns);
 	const Axes axes = AxesOf(grey, s);
@@ -320,6 +325,7 @@ EdgeOutcome MeasureLoneEdge(const cv::Mat& grey, const CornerGrid& grid, const E
 
 	// The window depends on the blur: start from a guess, measure, choose again until
 	// the window fits the blur that was measured in it.
+	const EdgeShading shading = ShadingOfEdge(light.Change(MiddleOf(place)), axes.normal);
 	EdgeFit fit;
 	std::vector<EdgeSample> samples;
 	double radius = 0.12 * axes.Side();
@@ -332,7 +338,7 @@ EdgeOutcome MeasureLoneEdge(const cv::Mat& grey, const CornerGrid& grid, const E
 		// A blur that fills the window is not known well enough yet for the full number to be of use.
 		const bool rough = round == 0 || (round == 1 && radius > 0.15 * axes.Side());
 		samples = Thin(Collect(grey, s, axes, radius, reach), rough ? 500 : 6000);
-		fit = FitEdge(samples, LoneEdge(axes.normal.x(), axes.normal.y()), round == 0 ? 0.5 * radius : radius);
+		fit = FitEdge(samples, LoneEdge(axes.normal.x(), axes.normal.y()), shading, round == 0 ? 0.5 * radius : radius);
 		if (!fit.valid)
 			return EdgeOutcome::FAILED;
 		settled = (!rough || round == 0) && std::abs(std::max(fit.radius, 0.0) - radius) < 0.05 * radius + 0.1;
@@ -340,7 +346,7 @@ EdgeOutcome MeasureLoneEdge(const cv::Mat& grey, const CornerGrid& grid, const E
 	}
 	if (radius > LONE_RATIO * axes.Side() || axes.gap - radius - 1.5 < 1.1 * radius + 2)
 		return EdgeOutcome::TOO_BLURRED;
-	if (!settled || !Trustworthy(fit, axes.gap))
+	if (!settled || !Trustworthy(fit, axes))
 		return EdgeOutcome::FAILED;
 	Fill(fit, samples, axes, grid, place, edge);
 	edge.noise = fit.rms;
@@ -348,14 +354,15 @@ EdgeOutcome MeasureLoneEdge(const cv::Mat& grey, const CornerGrid& grid, const E
 	return EdgeOutcome::MEASURED;
 }
 
-EdgeOutcome MeasureBlurredEdge(const cv::Mat& grey, const CornerGrid& grid, const EdgePlace& place, double start_radius, const Vec2& growth,
-	bool last, Edge& edge)
+EdgeOutcome MeasureBlurredEdge(const cv::Mat& grey, const CornerGrid& grid, const LightField& light, const EdgePlace& place, double start_radius,
+	const Vec2& growth, bool last, Edge& edge)
 {
 	const Axes axes = AxesOf(grey, SurroundingsOf(grid, place.column, place.row, place.along_columns));
 	if (axes.gap < 8 || axes.length < 8)
 		return EdgeOutcome::FAILED;
 	const Lines lines = LinesAround(grid, place, axes, growth);
 	const BlurredChecker profile = lines.Profile();
+	const EdgeShading shading = ShadingOfEdge(light.Change(MiddleOf(place)), axes.normal);
 	EdgeFit fit;
 	std::vector<EdgeSample> samples;
 	double radius = start_radius;
@@ -363,7 +370,7 @@ EdgeOutcome MeasureBlurredEdge(const cv::Mat& grey, const CornerGrid& grid, cons
 	for (int round = 0; round < 5 && !settled; ++round)
 	{
 		samples = Thin(CollectBlurred(grey, axes, lines, radius), last ? 2000 : round == 0 ? 400 : 800);
-		fit = FitEdge(samples, profile, radius);
+		fit = FitEdge(samples, profile, shading, radius);
 		edge.square_px = axes.Side();
 		if (!fit.valid)
 			return EdgeOutcome::FAILED;
@@ -382,7 +389,7 @@ EdgeOutcome MeasureBlurredEdge(const cv::Mat& grey, const CornerGrid& grid, cons
 		return EdgeOutcome::LOW_CONTRAST;
 	}
 	// Below, the pixel is not small beside the disc, and lone edges should have been found.
-	if (!settled || radius < 1.5 || !Trustworthy(fit, axes.gap))
+	if (!settled || radius < 1.5 || !Trustworthy(fit, axes))
 		return EdgeOutcome::FAILED;
 	if (last)
 		AddNeighboursUncertainty(lines, Thin(samples, 500), axes.length, fit);

@@ -5,6 +5,7 @@
 
 #include <tiltcal/photo.h>
 #include "measure/corner_grid.h"
+#include "measure/light_field.h"
 #include "measure/spread_order.h"
 
 #include <opencv2/core.hpp>
@@ -31,15 +32,15 @@ enum class EdgeOutcome
 	LOW_CONTRAST   ///< below LEAST_CONTRAST; edge.low and edge.high are filled in
 };
 
-/// Fits one edge alone (edge_fit.h), with pixels that no other edge's blur reaches.
+/// Fits one edge alone (edge_fit.h), with pixels that no other edge's blur reaches. `light`: of the same picture.
 /// `edge` receives everything of board.h. TOO_BLURRED: above LONE_RATIO, try MeasureBlurredEdge.
-EdgeOutcome MeasureLoneEdge(const cv::Mat& grey, const CornerGrid& grid, const EdgePlace& place, Edge& edge);
+EdgeOutcome MeasureLoneEdge(const cv::Mat& grey, const CornerGrid& grid, const LightField& light, const EdgePlace& place, Edge& edge);
 
 /// The same with the edges around it in the model (blurred_checker.h), where `grid` says. Good for `start_radius` above
 /// some 2.5 px. `growth`: gradient of the blur radius in the picture, from its neighbours; 0 where unknown. Only when
 /// `last` are all pixels used, and do the sigmas contain what the neighbours' own uncertainty adds.
-EdgeOutcome MeasureBlurredEdge(const cv::Mat& grey, const CornerGrid& grid, const EdgePlace& place, double start_radius, const Vec2& growth,
-	bool last, Edge& edge);
+EdgeOutcome MeasureBlurredEdge(const cv::Mat& grey, const CornerGrid& grid, const LightField& light, const EdgePlace& place, double start_radius,
+	const Vec2& growth, bool last, Edge& edge);
 
 }
 

@@ -67,10 +67,10 @@ RealLensEdge EdgeOf(const RealLensFit& fit, const Edge& e, const RealLensNumbers
 	const Task& task = fit.task;
 	const Point normal = EdgeNormal(e);
 	const double floor_squared = std::max(x.lens[FLOOR_SQUARED], 0.0), squared = SignedSquare(e.blur), h = 0.01;
-	// Edges that were told, not measured, have neither pixels nor light.
-	const double reach = e.reach > 0 ? e.reach : 0.7 * std::abs(e.blur) + 3, dark = e.high > e.low ? e.low / (e.high - e.low) : 0;
+	// Edges that were told, not measured, have no pixels.
+	const double reach = e.reach > 0 ? e.reach : 0.7 * std::abs(e.blur) + 3;
 	RealLensEdge edge{ task.board.X(e.board_column), task.board.Y(e.board_row), e.along_columns, e.x, e.y, normal[0], normal[1], x.r, task.pitch_mm,
-		FitResponse(normal[0], normal[1], e.blur, reach, floor_squared / 16, dark), 0, (SoftDiameterOfSquare(squared + h) - SoftDiameterOfSquare(squared - h)) / (2 * h), floor_squared, {}, {} };
+		FitResponse(normal[0], normal[1], e.blur, reach, floor_squared / 16), 0, (SoftDiameterOfSquare(squared + h) - SoftDiameterOfSquare(squared - h)) / (2 * h), floor_squared, {}, {} };
 	edge.soft_of_disc = MissOfDisc(edge.response, std::sqrt(std::max(squared - x.lens[FLOOR_SQUARED], 0.0)), fit.rings);
 	const auto mounted = [&](double t) { return MountedLens<double>(x.states[s].data(), x.lens.data(), x.c.data(), x.r, task.pitch_mm, e.x + t * normal[0], e.y + t * normal[1]); };
 	const double step = 0.5;   // px

@@ -35,7 +35,7 @@ EdgeFit Fitted(const std::vector<std::pair<double, double>>& spread, double nx, 
 				light += part * PixelEdgeResponse(x - at, 0, std::abs(nx), std::abs(ny)).value;
 			samples.push_back({ x, s, 0.05 + 0.75 * light });
 		}
-	return FitEdge(samples, LoneEdge(nx, ny), start);
+	return FitEdge(samples, LoneEdge(nx, ny), {}, start);
 }
 
 /// A disc of radius R as points along a line, each with its chord.
@@ -66,7 +66,7 @@ TEST(FitResponse, IsWhatTheFitOfAnEdgeDoes)
 			spread.emplace_back(aside * R, part);
 			const EdgeFit disc = Fitted(Disc(R), nx, ny, reach, R), fit = Fitted(spread, nx, ny, reach, R);
 			ASSERT_TRUE(disc.valid && fit.valid);
-			const FitResponse response(nx, ny, diameter, reach, 0, 0.05 / 0.75);
+			const FitResponse response(nx, ny, diameter, reach, 0);
 			EXPECT_NEAR(fit.offset - disc.offset, part * response.Place(aside * R).value, 3 * part * part * R + 0.03 * part * R) << diameter << " " << aside;
 			EXPECT_NEAR(SoftDiameter(2 * fit.radius) - SoftDiameter(2 * disc.radius), part * response.Soft(aside * R).value, 6 * part * part * R + 0.03 * part * diameter) << diameter << " " << aside;
 		}
@@ -74,7 +74,7 @@ TEST(FitResponse, IsWhatTheFitOfAnEdgeDoes)
 
 TEST(FitResponse, ItsDerivativesAreItsOwn)
 {
-	const FitResponse response(0.6, 0.8, 7, 9, 0.1, 0);
+	const FitResponse response(0.6, 0.8, 7, 9, 0.1);
 	const double h = 1e-5;
 	for (const double x : { -9.0, -4.1, -0.3, 0.0, 2.22, 6.0 })
 	{
