@@ -156,12 +156,17 @@ Eigen::VectorXd RimFit::Evaluate(const std::vector<Block>& blocks, const Rims& r
 
 std::optional<double> RimFit::Solve(const std::vector<Block>& blocks, Rims& rims, int iterations) const
 {
-	const auto evaluate = [&](const double* const* x, double* residuals)
+	int residuals = 0;
+	for (const Block& block : blocks)
+		residuals += int(block.rows.size());
+	if (residuals == 0)   // the only group is left out
+		return std::nullopt;
+	const auto evaluate = [&](const double* const* x, double* into)
 	{
 		Rims at = rims;
 		FromNumbers(*x, at);
 		const Eigen::VectorXd r = Evaluate(blocks, at);
-		std::copy(r.data(), r.data() + r.size(), residuals);
+		std::copy(r.data(), r.data() + r.size(), into);
 		return true;
 	};
 	ceres::NumericDiffOptions steps;
@@ -169,9 +174,6 @@ std::optional<double> RimFit::Solve(const std::vector<Block>& blocks, Rims& rims
 	auto* const cost = new ceres::DynamicNumericDiffCostFunction<decltype(evaluate), ceres::FORWARD>(&evaluate, ceres::DO_NOT_TAKE_OWNERSHIP, steps);
 	std::vector<double> x = NumbersOf(rims);
 	cost->AddParameterBlock(int(x.size()));
-	int residuals = 0;
-	for (const Block& block : blocks)
-		residuals += int(block.rows.size());
 	cost->SetNumResiduals(residuals);
 	ceres::Problem problem;
 	problem.AddResidualBlock(cost, nullptr, x.data());

@@ -29,7 +29,7 @@ public:
 	RimFit(const FalloffFit& light, std::vector<size_t> light_group, std::vector<EdgeShift> edges, size_t first_edge_group);
 
 	/// Fits in place, each rim's sign of the distance kept, without one group. Returns the cost, half the sum of squares beyond
-	/// which residuals of 3 sigma count linearly; none without convergence.
+	/// which residuals of 3 sigma count linearly; none without convergence, or where nothing is left.
 	std::optional<double> Minimise(Rims& rims, size_t left_out = NONE, int iterations = 30) const;
 
 	/// From several starts: `start` and, where `distance_sign` is not 0, one more rim on that side of the lens, from a grid. The

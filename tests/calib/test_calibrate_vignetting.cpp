@@ -5,6 +5,7 @@
 #include "measure/bright_patches.h"
 #include <tiltcal/photo.h>
 #include "effects/effects.h"
+#include "effects/rim_fit.h"
 #include <tiltcal/error.h>
 #include "measure/measure.h"
 #include "support/shaded_lens.h"
@@ -112,6 +113,30 @@ TEST(CalibrateVignetting, OneRimStaysOne)
 		second += FalloffOf(c).rims.size() > 1;
 	}
 	EXPECT_LE(second, 1);
+}
+
+// One photograph cannot be left out: nothing predicts anything, so that no second rim is kept, however much it would fit.
+TEST(CalibrateVignetting, OnePhotographHasNoSecondRim)
+{
+	for (unsigned seed = 1; seed <= 5; ++seed)
+	{
+		const Calibration c = Estimated(synthetic::Shaded({ Lens() }, ON_BOTH_SIDES, 0.005, seed, 1));
+		ASSERT_EQ(c.vignetting.failure, "");
+		for (const FalloffAnswer& answer : c.vignetting.answers)
+			EXPECT_LE(answer.rims.size(), 1u);
+	}
+}
+
+// The same through the least squares: without its only group there is nothing to fit.
+TEST(CalibrateVignetting, WithoutTheOnlyGroupThereIsNoFit)
+{
+	FalloffFit light;
+	light.lens_radius = 8;
+	light.image_distance = 50;
+	light.samples.resize(8);
+	const RimFit fit(light, std::vector<size_t>(8, 0), {}, 1);
+	Rims rims{ { 15, 33 }, { 9, -13 } };
+	EXPECT_FALSE(fit.Minimise(rims, 0));
 }
 
 TEST(CalibrateVignetting, UnevenLightIsNotTakenForTheLens)
