@@ -2,11 +2,11 @@
 
 #include "calibrate/between_parts.h"
 
-#include "base/robust.h"
 #include "lens/angles.h"
 #include "lens/optics.h"
 #include "model/thin_lens_of_real.h"
 #include "model/tilt_angles.h"
+#include "solve/half_of_edges.h"
 #include "solve/solve_joint.h"
 
 #include <algorithm>
@@ -19,25 +19,6 @@ namespace
 {
 
 const double DEGREES = tilt_lens::DegreesPerRadian;
-
-/// Of the edges of each photograph those whose number `of` is above its median, or those up to it.
-template<typename Number>
-Task HalfOf(const Task& task, Number of, bool above)
-{
-	Task half = task;
-	for (State& state : half.states)
-		for (Photo& photo : state.photos)
-		{
-			std::vector<double> numbers;
-			for (const Edge& edge : photo.edges)
-				numbers.push_back(of(edge));
-			if (numbers.empty())
-				continue;
-			const double median = Median(numbers);
-			photo.edges.erase(std::remove_if(photo.edges.begin(), photo.edges.end(), [&](const Edge& edge) { return (of(edge) > median) != above; }), photo.edges.end());
-		}
-	return half;
-}
 
 /// A difference, and what a part scatters by itself.
 struct Distance
@@ -75,16 +56,13 @@ void WidenTilt(const StateLens& whole, size_t state, const std::vector<PartAnswe
 
 std::vector<PartAnswer> SolveParts(const Calibration& c)
 {
-	const auto from_middle = [&c](const Edge& e) { return std::hypot(e.x - 0.5 * (c.task.width - 1), e.y - 0.5 * (c.task.height - 1)); };
-	const auto blur = [](const Edge& e) { return std::abs(e.blur); };
 	std::vector<PartAnswer> parts;
-	for (const bool above : { false, true })
-		for (const Task& task : { HalfOf(c.task, from_middle, above), HalfOf(c.task, blur, above) })
-		{
-			PartAnswer part{ c.geometry, c.solution };
-			if (RefineJointly(task, Refinement::EDGES, part.geometry, part.solution))
-				parts.push_back(part);
-		}
+	for (const EdgeSubset& half : FourHalvesOfEdges(c.task))
+	{
+		PartAnswer part{ c.geometry, c.solution };
+		if (RefineJointly(WithEdges(c.task, half), Refinement::EDGES, part.geometry, part.solution))
+			parts.push_back(part);
+	}
 	return parts;
 }
 

@@ -223,6 +223,17 @@ std::vector<const double*> SharedBlocks(const RealLensNumbers& x)
 	return blocks;
 }
 
+/// Of these blocks, scaled by the residuals; none: singular.
+std::optional<Eigen::MatrixXd> CovarianceByEdges(ceres::Problem& problem, const std::vector<const double*>& blocks)
+{
+	BlockCovariance covariance(problem);
+	if (!covariance.Compute(blocks))
+		return std::nullopt;
+	double cost = 0;
+	problem.Evaluate(ceres::Problem::EvaluateOptions(), &cost, nullptr, nullptr, nullptr);
+	return 2 * cost / std::max(problem.NumResiduals() - problem.NumParameters(), 1) * covariance.Of(blocks);
+}
+
 }
 
 std::vector<tilt_lens::Rim> RealLensNumbers::Rims() const
@@ -299,19 +310,23 @@ bool RealLensFit::Minimise(const std::vector<RealLensEdge>& edges, RealLensNumbe
 	return SolveLeastSquares(how, problem).has_value();
 }
 
+std::optional<Eigen::MatrixXd> RealLensFit::ByEdges(const std::vector<RealLensEdge>& edges, RealLensNumbers& x) const
+{
+	ceres::Problem problem;
+	Build(*this, edges, x, problem);
+	return CovarianceByEdges(problem, SharedBlocks(x));
+}
+
 std::optional<RealLensFit::Judged> RealLensFit::Judge(const std::vector<RealLensEdge>& edges, RealLensNumbers& x) const
 {
 	ceres::Problem problem;
 	const std::vector<PhotographBlocks> photographs = Build(*this, edges, x, problem);
 	const std::vector<const double*> shared = SharedBlocks(x);
-	BlockCovariance covariance(problem);
-	if (!covariance.Compute(shared))
+	const std::optional<Eigen::MatrixXd> by_edges = CovarianceByEdges(problem, shared);
+	if (!by_edges)
 		return std::nullopt;
-	double cost = 0;
-	problem.Evaluate(ceres::Problem::EvaluateOptions(), &cost, nullptr, nullptr, nullptr);
-	const double scale = 2 * cost / std::max(problem.NumResiduals() - problem.NumParameters(), 1);
 	Judged judged;
-	judged.by_edges = scale * covariance.Of(shared);
+	judged.by_edges = *by_edges;
 	if (const std::optional<CovarianceByPhotographs> jackknife = JackknifeOverPhotographs(problem, photographs))
 	{
 		judged.by_photographs = jackknife->Of(shared);

@@ -157,13 +157,23 @@ Estimate OpeningOnAxis(const RealLens& lens)
 	return least;
 }
 
+/// As the numbers scatter, and as parts of the edges put them apart. Tilts are computed from the covariances: what parts leave them is told by the sixteen numbers.
+std::vector<double> SigmasOf(const RealLensAnswer& answer)
+{
+	std::vector<double> sigma;
+	for (int k = 0; k < answer.judged.by_edges.rows(); ++k)
+	{
+		const double scatter = std::max(answer.judged.by_edges(k, k), answer.judged.by_photographs ? (*answer.judged.by_photographs)(k, k) : 0);
+		sigma.push_back(std::sqrt(std::max(scatter, 0.) + answer.variance_by_parts[k]));
+	}
+	return sigma;
+}
+
 RealLens Described(const Task& task, const RealLensAnswer& answer, const std::vector<RimEstimate>& rims)
 {
 	RealLens found;
 	const RealLensNumbers& x = answer.numbers;
-	std::vector<double> sigma;
-	for (int k = 0; k < PlaceOfState(task.states.size()); ++k)
-		sigma.push_back(std::sqrt(std::max({ answer.judged.by_edges(k, k), answer.judged.by_photographs ? (*answer.judged.by_photographs)(k, k) : 0, 0. })));
+	const std::vector<double> sigma = SigmasOf(answer);
 	const double board = task.board.square_sigma_mm / task.board.square_mm;
 	const double f = task.pitch_mm / x.lens[POWER], d = 2 * x.r * x.lens[OPENING];
 	found.focal_length_mm = { f, f * sigma[POWER] / x.lens[POWER] };
@@ -178,6 +188,7 @@ RealLens Described(const Task& task, const RealLensAnswer& answer, const std::ve
 	for (size_t s = 0; s < task.states.size(); ++s)
 		found.states.push_back(StateOf(answer, s, task.states[s].photos.size(), task.pitch_mm, sigma));
 	found.opening_on_axis_mm = OpeningOnAxis(found);
+	WidenHiddenStop(found);
 	for (const std::array<double, 2>& place_and_blur : answer.residuals)
 		found.place_errors_px.push_back(place_and_blur[0]);
 	found.rms_place = answer.error.offset;
@@ -186,6 +197,16 @@ RealLens Described(const Task& task, const RealLensAnswer& answer, const std::ve
 	return found;
 }
 
+}
+
+void WidenHiddenStop(RealLens& lens)
+{
+	if (!(lens.opening_on_axis_mm.value < lens.aperture_diameter_mm.value))
+		return;
+	const double m = lens.pupil_magnification.value;
+	lens.pupil_magnification.sigma = std::hypot(lens.pupil_magnification.sigma, PUPIL_MAGNIFICATION_SIGMA);
+	for (RealLensState& state : lens.states)
+		state.image_distance_mm.sigma = std::hypot(state.image_distance_mm.sigma, state.image_distance_mm.value / m * PUPIL_MAGNIFICATION_SIGMA);
 }
 
 RealLenses FindRealLens(const Task& task, const Geometry& geometry, const Solution& thin, const std::vector<RimEstimate>& rims,

@@ -24,6 +24,9 @@ struct RealLenses
 RealLenses FindRealLens(const Task& task, const Geometry& geometry, const Solution& thin, const std::vector<RimEstimate>& rims,
 	const std::function<bool(RealLens& tilts)>& judge);
 
+/// Where a rim holds back the axis's own light, nothing shows the border of the stop, of whose two images m is the ratio: what is known of m is what is known of lenses.
+void WidenHiddenStop(RealLens& lens);
+
 }
 
 #endif

@@ -8,6 +8,7 @@
 #include "edge/soft_radius.h"
 #include "solve/opening_points.h"
 #include "solve/real_lens_fit.h"
+#include "solve/solve_real_lens.h"
 #include "support/shaded_lens.h"
 #include "support/synthetic_lens.h"
 
@@ -51,7 +52,7 @@ std::vector<std::pair<double, double>> Disc(double R)
 	return spread;
 }
 
-// The light of a disc, a part of it thrown aside: coma, halo or core. So small a part that the fit's Huber weights, which begin at some 0.4 % of the step, let
+// The light of a disc, a part of it thrown aside: coma, halo or core. So small a part that the fit's Huber weights, which begin at some 5 % of the step, let
 // it be. To first order: a few times its square may be left, and 3 % by the response's own samples (48 across, and 65 nodes), whose steps are 1/10 of a disc.
 TEST(FitResponse, IsWhatTheFitOfAnEdgeDoes)
 {
@@ -82,6 +83,23 @@ TEST(FitResponse, ItsDerivativesAreItsOwn)
 		EXPECT_NEAR(response.Soft(x).derivative, (response.Soft(x + h).value - response.Soft(x - h).value) / (2 * h), 1e-5);
 	}
 	EXPECT_EQ(response.Place(100).value, 0);
+}
+
+// m is the ratio of the stop's two images: where a rim is all that the axis's light meets, it is what is known of lenses, 0.3 (model/thin_lens_of_real.h), and the exit pupil with it.
+TEST(RealLens, AHiddenStopTellsNoPupilMagnification)
+{
+	RealLens lens;
+	lens.pupil_magnification = { 0.8, 0.02 };
+	lens.aperture_diameter_mm = lens.opening_on_axis_mm = { 20, 0.1 };
+	lens.states.resize(1);
+	lens.states[0].image_distance_mm = { 40, 0.5 };
+	WidenHiddenStop(lens);
+	EXPECT_EQ(lens.pupil_magnification.sigma, 0.02);
+	EXPECT_EQ(lens.states[0].image_distance_mm.sigma, 0.5);
+	lens.opening_on_axis_mm.value = 18;
+	WidenHiddenStop(lens);
+	EXPECT_DOUBLE_EQ(lens.pupil_magnification.sigma, std::hypot(0.02, 0.3));
+	EXPECT_DOUBLE_EQ(lens.states[0].image_distance_mm.sigma, std::hypot(0.5, 15));   // 50 mm to an exit pupil of m 1
 }
 
 // Of a uniform disc: light 1, middle 0, 1/4 along every direction, fourth moment 1/8.
