@@ -157,14 +157,16 @@ Estimate OpeningOnAxis(const RealLens& lens)
 	return least;
 }
 
-/// As the numbers scatter, and as parts of the edges put them apart. Tilts are computed from the covariances: what parts leave them is told by the sixteen numbers.
+/// As the numbers scatter, and the lens's and where it stands as parts of the edges put them apart, too. Not the aberrations, which parts share out otherwise among
+/// themselves while their sum stays, nor the tilts, which are computed from the covariances and hold what the sixteen numbers say.
 std::vector<double> SigmasOf(const RealLensAnswer& answer)
 {
 	std::vector<double> sigma;
 	for (int k = 0; k < answer.judged.by_edges.rows(); ++k)
 	{
 		const double scatter = std::max(answer.judged.by_edges(k, k), answer.judged.by_photographs ? (*answer.judged.by_photographs)(k, k) : 0);
-		sigma.push_back(std::sqrt(std::max(scatter, 0.) + answer.variance_by_parts[k]));
+		const bool aberration = k >= LENS_SIZE && k < LENS_SIZE + tilt_lens::AberrationTerms;
+		sigma.push_back(std::sqrt(std::max(scatter, 0.) + (aberration ? 0 : answer.variance_by_parts[k])));
 	}
 	return sigma;
 }
