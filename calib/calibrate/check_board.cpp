@@ -127,11 +127,10 @@ public:
 		options.algorithm_type = ceres::SPARSE_QR;
 		ceres::Covariance covariance(options);
 		const std::vector<std::pair<const double*, const double*>> block{ { shape.data(), shape.data() } };
-		double c[16], cost = 0;
+		double c[16];
 		if (!covariance.Compute(block, &problem) || !covariance.GetCovarianceBlock(shape.data(), shape.data(), c))
 			return std::nullopt;
-		problem.Evaluate(ceres::Problem::EvaluateOptions(), &cost, nullptr, nullptr, nullptr);
-		const double scale = 2 * cost / std::max(problem.NumResiduals() - problem.NumParameters(), 1);
+		const double scale = VarianceOfResiduals(problem);
 		Shape sigmas;
 		for (size_t k = 0; k < 4; ++k)
 			sigmas[k] = std::sqrt(std::max(scale * c[5 * k], 0.0));

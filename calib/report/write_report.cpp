@@ -135,9 +135,8 @@ std::string Evidence(const Calibration& c)
 
 std::string GlassText(const RealLens& lens)
 {
-	const bool narrowed = lens.opening_on_axis_mm.value < lens.aperture_diameter_mm.value;
 	return fmt::format("focal length {} mm, aperture {} mm{}, pupil magnification {}\n", PlusMinus(lens.focal_length_mm, 3), PlusMinus(lens.aperture_diameter_mm, 3),
-		narrowed ? fmt::format(" (of which a rim leaves {} on the axis)", PlusMinus(lens.opening_on_axis_mm, 3)) : "", PlusMinus(lens.pupil_magnification, 4));
+		lens.RimHoldsBackTheAxis() ? fmt::format(" (of which a rim leaves {} on the axis)", PlusMinus(lens.opening_on_axis_mm, 3)) : "", PlusMinus(lens.pupil_magnification, 4));
 }
 
 std::string RealLensText(const Calibration& c)

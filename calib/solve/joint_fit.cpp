@@ -204,9 +204,7 @@ std::optional<JointCovariance> JointFit::Covariance(Geometry& g, Unknowns& x) co
 	if (!covariance.Compute(lens, alone))
 		return std::nullopt;
 
-	double cost = 0;
-	problem.Evaluate(ceres::Problem::EvaluateOptions(), &cost, nullptr, nullptr, nullptr);
-	const double scale = 2 * cost / std::max(problem.NumResiduals() - problem.NumParameters(), 1);
+	const double scale = VarianceOfResiduals(problem);
 	const std::optional<CovarianceByPhotographs> jackknife = JackknifeOverPhotographs(problem, photographs);
 	const auto larger = [&](const std::vector<const double*>& block)
 	{

@@ -58,4 +58,11 @@ std::optional<double> SolveLeastSquares(const LeastSquares& how, ceres::Problem&
 	return std::nullopt;
 }
 
+double VarianceOfResiduals(ceres::Problem& problem)
+{
+	double cost = 0;
+	problem.Evaluate(ceres::Problem::EvaluateOptions(), &cost, nullptr, nullptr, nullptr);
+	return 2 * cost / std::max(problem.NumResiduals() - problem.NumParameters(), 1);
+}
+
 }

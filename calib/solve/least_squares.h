@@ -34,6 +34,9 @@ int LimitThreads(int most);
 /// converge; then `why` holds its words.
 std::optional<double> SolveLeastSquares(const LeastSquares& how, ceres::Problem& problem, std::string* why = nullptr);
 
+/// What residuals that should have a variance of 1 have where the problem stands, as their losses count them: the scale of its covariances.
+double VarianceOfResiduals(ceres::Problem& problem);
+
 }
 
 #endif

@@ -215,6 +215,7 @@ std::vector<PhotographBlocks> Build(const RealLensFit& fit, const std::vector<Re
 	return photographs;
 }
 
+/// In the order of RealLensNumbers::InARow.
 std::vector<const double*> SharedBlocks(const RealLensNumbers& x)
 {
 	std::vector<const double*> blocks{ x.lens.data(), x.c.data(), x.rims.data() };
@@ -229,9 +230,7 @@ std::optional<Eigen::MatrixXd> CovarianceByEdges(ceres::Problem& problem, const 
 	BlockCovariance covariance(problem);
 	if (!covariance.Compute(blocks))
 		return std::nullopt;
-	double cost = 0;
-	problem.Evaluate(ceres::Problem::EvaluateOptions(), &cost, nullptr, nullptr, nullptr);
-	return 2 * cost / std::max(problem.NumResiduals() - problem.NumParameters(), 1) * covariance.Of(blocks);
+	return VarianceOfResiduals(problem) * covariance.Of(blocks);
 }
 
 }
@@ -245,6 +244,18 @@ std::vector<tilt_lens::Rim> RealLensNumbers::Rims() const
 		all.push_back({ unit.radius * std::exp(rims[RIM_SIZE * k + LOG_RADIUS]), sides[k] * unit.distance * std::exp(rims[RIM_SIZE * k + LOG_DISTANCE]) });
 	}
 	return all;
+}
+
+Eigen::VectorXd RealLensNumbers::InARow() const
+{
+	std::vector<double> all;
+	const auto add = [&all](const auto& block) { all.insert(all.end(), block.begin(), block.end()); };
+	add(lens);
+	add(c);
+	add(rims);
+	for (const auto& state : states)
+		add(state);
+	return Eigen::Map<const Eigen::VectorXd>(all.data(), long(all.size()));
 }
 
 RealLensNumbers StartOfRealLens(const Task& task, const Geometry& geometry, const Solution& thin, const std::vector<tilt_lens::Rim>& rims)

@@ -34,6 +34,7 @@ struct RealLensNumbers
 	bool lens_held = false;                               ///< the lens and the states' tilts
 
 	std::vector<tilt_lens::Rim> Rims() const;             ///< mm
+	Eigen::VectorXd InARow() const;                       ///< lens, c, rims and the states one after the other
 	Pose& PoseOf(size_t s, size_t p) { return poses[shared_poses ? 0 : s][p]; }
 	const Pose& PoseOf(size_t s, size_t p) const { return poses[shared_poses ? 0 : s][p]; }
 };
@@ -68,7 +69,7 @@ struct RealLensFit
 	/// others, its pose being its own: the RMS of all residuals, in their sigmas.
 	struct Judged
 	{
-		Eigen::MatrixXd by_edges;                    ///< of lens, c, rims and the states one after the other
+		Eigen::MatrixXd by_edges;                    ///< of RealLensNumbers::InARow
 		std::optional<Eigen::MatrixXd> by_photographs;
 		double held_out = 0;                         ///< 0: cannot be had
 	};

@@ -180,10 +180,7 @@ bool Sigmas(ceres::Problem& problem, Geometry& g)
 	if (!covariance.Compute(blocks, &problem))
 		return false;
 
-	double cost = 0;
-	problem.Evaluate(ceres::Problem::EvaluateOptions(), &cost, nullptr, nullptr, nullptr);
-	const double freedom = problem.NumResiduals() - problem.NumParameters();
-	const double scale = std::sqrt(2 * cost / std::max(freedom, 1.0));
+	const double scale = std::sqrt(VarianceOfResiduals(problem));
 	const auto get = [&](const double* block, double* sigma, int n)
 	{
 		std::vector<double> c(static_cast<size_t>(n * n), 0);

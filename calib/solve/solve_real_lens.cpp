@@ -203,7 +203,7 @@ RealLens Described(const Task& task, const RealLensAnswer& answer, const std::ve
 
 void WidenHiddenStop(RealLens& lens)
 {
-	if (!(lens.opening_on_axis_mm.value < lens.aperture_diameter_mm.value))
+	if (!lens.RimHoldsBackTheAxis())
 		return;
 	const double m = lens.pupil_magnification.value;
 	lens.pupil_magnification.sigma = std::hypot(lens.pupil_magnification.sigma, PUPIL_MAGNIFICATION_SIGMA);

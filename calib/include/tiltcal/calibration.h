@@ -315,7 +315,8 @@ struct RealLensState
 	Vec3<double> lens_centre_mm{ 0, 0, 0 };
 };
 
-/// One real lens in all states. Sigmas are the larger of those by edges and by photographs.
+/// One real lens in all states. Sigmas are the larger of those by edges and by photographs; those of the lens and of where it stands, but for tilts and aberrations, also
+/// hold how far halves of the edges put it apart.
 struct RealLens
 {
 	std::string failure;              ///< why there is none; empty when there is one
@@ -333,6 +334,9 @@ struct RealLens
 	double held_out_thin = 0;         ///< the same, in the same units, by the thin lens that it starts from
 	bool used = false;                ///< it is the answer: Calibration::TiltOf
 	double seconds = 0;               ///< that it took, by the clock
+
+	/// Then nothing shows the border of the stop.
+	bool RimHoldsBackTheAxis() const { return opening_on_axis_mm.value < aperture_diameter_mm.value; }
 
 	/// An aberration in thousandths of the focal length, as the scene language has it.
 	Estimate PerMille(size_t k) const
