@@ -19,6 +19,30 @@ namespace
 /// Of all that is known in some direction, the most that one photograph may say.
 const double MOST_LEVERAGE = 0.99;
 
+/// Less than this part of what is known of a number, were the others known, is rounding.
+const double LEAST_TOLD = 1e-12;
+
+/// What photographs have in common, and what is known of it beside them.
+struct Common
+{
+	ceres::Problem& problem;
+	std::vector<ceres::ResidualBlockId> residuals = {}, others = {};
+	std::vector<double*> shared = {};
+	int size = 0;
+
+	Common(ceres::Problem& of, const std::vector<PhotographBlocks>& photographs) : problem(of)
+	{
+		problem.GetResidualBlocks(&residuals);
+		shared = SharedBlocks(problem, residuals, photographs);
+		size = TangentSize(problem, shared);
+		others = Others(residuals, photographs);
+	}
+
+	Quadratic Nothing() const { return { Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size), 0, 0 }; }
+	Quadratic Prior() const { return others.empty() ? Nothing() : Expand(problem, others, shared); }
+	Quadratic Beside(const PhotographBlocks& p) const { return p.beside.empty() ? Nothing() : Expand(problem, p.beside, shared); }
+};
+
 struct LeftOutEach
 {
 	Eigen::MatrixXd covariance;
@@ -58,7 +82,7 @@ std::optional<LeftOutEach> Jackknife(const std::vector<Quadratic>& predicted, co
 
 }
 
-CovarianceByPhotographs::CovarianceByPhotographs(const ceres::Problem& of, const std::vector<double*>& shared, Eigen::MatrixXd of_shared, double rms) : problem(of), c(std::move(of_shared)), held_out(rms)
+PlacesOfBlocks::PlacesOfBlocks(const ceres::Problem& of, const std::vector<double*>& shared) : problem(of)
 {
 	int at = 0;
 	for (const double* b : shared)
@@ -68,12 +92,20 @@ CovarianceByPhotographs::CovarianceByPhotographs(const ceres::Problem& of, const
 	}
 }
 
-Eigen::MatrixXd CovarianceByPhotographs::Of(const std::vector<const double*>& blocks) const
+std::vector<int> PlacesOfBlocks::Of(const std::vector<const double*>& blocks) const
 {
 	std::vector<int> at;
 	for (const double* b : blocks)
 		for (int i = 0; i < problem.ParameterBlockSize(b); ++i)
 			at.push_back(first.count(b) ? first.at(b) + i : -1);
+	return at;
+}
+
+CovarianceByPhotographs::CovarianceByPhotographs(PlacesOfBlocks of, Eigen::MatrixXd of_shared, double rms) : places(std::move(of)), c(std::move(of_shared)), held_out(rms) {}
+
+Eigen::MatrixXd CovarianceByPhotographs::Of(const std::vector<const double*>& blocks) const
+{
+	const std::vector<int> at = places.Of(blocks);
 	const auto n = Eigen::Index(at.size());
 	Eigen::MatrixXd picked = Eigen::MatrixXd::Zero(n, n);
 	for (Eigen::Index i = 0; i < n; ++i)
@@ -85,32 +117,54 @@ Eigen::MatrixXd CovarianceByPhotographs::Of(const std::vector<const double*>& bl
 
 std::optional<CovarianceByPhotographs> JackknifeOverPhotographs(ceres::Problem& problem, const std::vector<PhotographBlocks>& photographs)
 {
-	std::vector<ceres::ResidualBlockId> residuals;
-	problem.GetResidualBlocks(&residuals);
-	const std::vector<double*> shared = SharedBlocks(problem, residuals, photographs);
-	const int size = TangentSize(problem, shared);
-	Quadratic total{ Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size), 0, 0 };
-	// Priors.
-	if (const std::vector<ceres::ResidualBlockId> others = Others(residuals, photographs); !others.empty())
-		total = Expand(problem, others, shared);
+	const Common common(problem, photographs);
+	Quadratic total = common.Prior();
 	std::vector<Quadratic> each, predicted;
 	for (const PhotographBlocks& p : photographs)
 	{
-		predicted.push_back(OfPhotograph(problem, p, shared, size));
+		predicted.push_back(OfPhotograph(problem, p, common.shared, common.size));
 		each.push_back(predicted.back());
-		if (!p.beside.empty())
-		{
-			const Quadratic beside = Expand(problem, p.beside, shared);
-			each.back().H += beside.H;
-			each.back().g += beside.g;
-		}
+		each.back() += common.Beside(p);
 		total.H += each.back().H;
 	}
 	const std::optional<LeftOutEach> left_out = Jackknife(predicted, each, total, photographs);
 	if (!left_out)
 		return std::nullopt;
-	const Eigen::MatrixXd out = FromTangent(problem, shared);
-	return CovarianceByPhotographs(problem, shared, out * left_out->covariance * out.transpose(), left_out->held_out);
+	const Eigen::MatrixXd out = FromTangent(problem, common.shared);
+	return CovarianceByPhotographs(PlacesOfBlocks(problem, common.shared), out * left_out->covariance * out.transpose(), left_out->held_out);
+}
+
+std::optional<PartsAnswer> AnswerOfPart(ceres::Problem& problem, const std::vector<PhotographBlocks>& photographs, const std::vector<PhotographBlocks>& part, const std::vector<const double*>& blocks)
+{
+	const Common common(problem, photographs);
+	Quadratic total = common.Prior();
+	int unknowns = common.size;
+	for (const PhotographBlocks& p : part)
+	{
+		total += OfPhotograph(problem, p, common.shared, common.size);
+		total += common.Beside(p);
+		unknowns += problem.IsParameterBlockConstant(p.pose) ? 0 : problem.ParameterBlockTangentSize(p.pose);
+	}
+	// Scaled to a diagonal of ones, so that an eigenvalue is what is left of a number's knowledge when the others are unknown.
+	const Eigen::VectorXd scale = total.H.diagonal().cwiseSqrt();
+	if (!(scale.minCoeff() > 0))
+		return std::nullopt;
+	const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.cwiseInverse().asDiagonal() * total.H * scale.cwiseInverse().asDiagonal());
+	if (!(eigen.eigenvalues().minCoeff() > LEAST_TOLD))
+		return std::nullopt;
+	const Eigen::MatrixXd out = FromTangent(problem, common.shared) * scale.cwiseInverse().asDiagonal() * eigen.eigenvectors();
+	const Eigen::VectorXd along = eigen.eigenvectors().transpose() * scale.cwiseInverse().cwiseProduct(total.g), inverse = eigen.eigenvalues().cwiseInverse();
+	const double squares = total.squares - along.dot(inverse.cwiseProduct(along)), unit = squares / std::max(total.count - unknowns, 1);
+	const Eigen::VectorXd step = -(out * inverse.cwiseProduct(along)), variance = unit * (out.cwiseAbs2() * inverse);
+	const std::vector<int> at = PlacesOfBlocks(problem, common.shared).Of(blocks);
+	PartsAnswer answer{ Eigen::VectorXd::Zero(Eigen::Index(at.size())), Eigen::VectorXd::Zero(Eigen::Index(at.size())) };
+	for (size_t i = 0; i < at.size(); ++i)
+		if (at[i] >= 0)
+		{
+			answer.step[Eigen::Index(i)] = step[at[i]];
+			answer.variance[Eigen::Index(i)] = variance[at[i]];
+		}
+	return answer;
 }
 
 }

@@ -25,11 +25,25 @@ struct PhotographBlocks
 	std::vector<ceres::ResidualBlockId> beside{};   ///< left out with it, but not what is predicted of it; they do not know its pose
 };
 
+/// Where the numbers of free blocks lie that photographs have in common, one block after the other.
+class PlacesOfBlocks
+{
+public:
+	PlacesOfBlocks(const ceres::Problem& problem, const std::vector<double*>& shared);
+
+	/// Of these blocks' numbers; -1 for blocks that are held or belong to one photograph.
+	std::vector<int> Of(const std::vector<const double*>& blocks) const;
+
+private:
+	const ceres::Problem& problem;
+	std::map<const double*, int> first;
+};
+
 /// Covariances of the blocks that photographs have in common.
 class CovarianceByPhotographs
 {
 public:
-	CovarianceByPhotographs(const ceres::Problem& problem, const std::vector<double*>& shared, Eigen::MatrixXd of_shared, double held_out);
+	CovarianceByPhotographs(PlacesOfBlocks places, Eigen::MatrixXd of_shared, double held_out);
 
 	/// Of these blocks, one after the other; 0 for those that are held or belong to one photograph.
 	Eigen::MatrixXd Of(const std::vector<const double*>& blocks) const;
@@ -38,8 +52,7 @@ public:
 	double HeldOut() const { return held_out; }
 
 private:
-	const ceres::Problem& problem;
-	std::map<const double*, int> first;
+	PlacesOfBlocks places;
 	Eigen::MatrixXd c;
 	double held_out;
 };
@@ -48,6 +61,17 @@ private:
 /// minimum that `problem` stands at: each photograph is left out with its pose, and the others' step to their own minimum is taken. None
 /// when one photograph alone says nearly all of something: then the others cannot judge it.
 std::optional<CovarianceByPhotographs> JackknifeOverPhotographs(ceres::Problem& problem, const std::vector<PhotographBlocks>& photographs);
+
+/// Of blocks that photographs have in common, one after the other, 0 where they are held.
+struct PartsAnswer
+{
+	Eigen::VectorXd step;         ///< from where `problem` stands to the part's own minimum
+	Eigen::VectorXd variance;     ///< of that minimum, as the part's residuals scatter
+};
+
+/// What a part of the residuals says alone, the poses its own, linear about the minimum of all that `problem` stands at. `part`: the photographs with some of their
+/// residuals; what is no photograph's counts in full. None: it does not tell all numbers apart.
+std::optional<PartsAnswer> AnswerOfPart(ceres::Problem& problem, const std::vector<PhotographBlocks>& photographs, const std::vector<PhotographBlocks>& part, const std::vector<const double*>& blocks);
 
 }
 

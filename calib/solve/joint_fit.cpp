@@ -240,25 +240,11 @@ namespace
 /// The rows of `from_tangent`, which holds `shared` one after the other, that are these blocks'; 0 where one is held.
 Eigen::MatrixXd RowsOf(const ceres::Problem& problem, const std::vector<const double*>& blocks, const std::vector<double*>& shared, const Eigen::MatrixXd& from_tangent)
 {
-	std::map<const double*, Eigen::Index> first;
-	Eigen::Index at = 0;
-	for (const double* b : shared)
-	{
-		first[b] = at;
-		at += problem.ParameterBlockSize(b);
-	}
-	Eigen::Index rows = 0;
-	for (const double* b : blocks)
-		rows += problem.ParameterBlockSize(b);
-	Eigen::MatrixXd out = Eigen::MatrixXd::Zero(rows, from_tangent.cols());
-	at = 0;
-	for (const double* b : blocks)
-	{
-		const int size = problem.ParameterBlockSize(b);
-		if (first.count(b))
-			out.middleRows(at, size) = from_tangent.middleRows(first.at(b), size);
-		at += size;
-	}
+	const std::vector<int> at = PlacesOfBlocks(problem, shared).Of(blocks);
+	Eigen::MatrixXd out = Eigen::MatrixXd::Zero(Eigen::Index(at.size()), from_tangent.cols());
+	for (size_t i = 0; i < at.size(); ++i)
+		if (at[i] >= 0)
+			out.row(Eigen::Index(i)) = from_tangent.row(at[i]);
 	return out;
 }
 

@@ -12,6 +12,15 @@
 namespace tiltcal
 {
 
+Quadratic& Quadratic::operator+=(const Quadratic& q)
+{
+	H += q.H;
+	g += q.g;
+	squares += q.squares;
+	count += q.count;
+	return *this;
+}
+
 Quadratic Expand(ceres::Problem& problem, const std::vector<ceres::ResidualBlockId>& residuals, const std::vector<double*>& blocks)
 {
 	ceres::Problem::EvaluateOptions options;

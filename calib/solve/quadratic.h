@@ -22,6 +22,8 @@ struct Quadratic
 	Eigen::VectorXd g;
 	double squares = 0;   ///< r^T r
 	int count = 0;
+
+	Quadratic& operator+=(const Quadratic& q);
 };
 
 /// Of these residuals by these blocks.

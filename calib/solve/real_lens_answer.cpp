@@ -77,7 +77,6 @@ std::optional<RealLensAnswer> Answer(const RealLensFit& fit, const std::vector<R
 	if (!judged)
 		return std::nullopt;
 	answer.judged = *judged;
-	answer.variance_by_parts = VarianceByParts(fit, edges, x);
 	answer.numbers = x;
 	if (geometry.shared_poses)
 		answer.about_shared_poses = AboutSharedPoses(fit, edges, geometry, x);

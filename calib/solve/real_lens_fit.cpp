@@ -9,7 +9,9 @@
 #include "solve/block_covariance.h"
 #include "solve/by_photographs.h"
 #include "solve/each_edge.h"
+#include "solve/half_of_edges.h"
 #include "solve/least_squares.h"
+#include "solve/real_lens_edge_cost.h"
 #include "solve/solve_geometry.h"
 
 #include <ceres/ceres.h>
@@ -24,23 +26,6 @@ namespace
 {
 
 using namespace real_lens;
-using RealLensCost = ceres::AutoDiffCostFunction<struct WeightedRealLensEdge, 2, STATE_SIZE, 6, 3, LENS_SIZE, tilt_lens::AberrationTerms, RIMS_SIZE>;
-using RealLensLightCost = ceres::AutoDiffCostFunction<RealLensPatches, ceres::DYNAMIC, STATE_SIZE, LENS_SIZE, tilt_lens::AberrationTerms, RIMS_SIZE, 2>;
-
-struct WeightedRealLensEdge
-{
-	const RealLensEdge& edge;
-	double of_place, of_blur;
-
-	template<typename T>
-	bool operator()(const T* state, const T* pose, const T* centre, const T* lens, const T* c, const T* rims, T* residual) const
-	{
-		edge.See(state, pose, centre, lens, c, rims, residual);
-		residual[0] *= T(of_place);
-		residual[1] *= T(of_blur);
-		return true;
-	}
-};
 
 /// What the sum over the opening's points misses of the mean over the disc that was fitted, whichever way it lies.
 double MissOfDisc(const FitResponse& response, double diameter, Rings rings)
@@ -165,7 +150,7 @@ void AddLight(const RealLensFit& fit, RealLensNumbers& x, ceres::Problem& proble
 	for (const RealLensExposure& exposure : fit.exposures)
 	{
 		double* const gradient = x.gradients[exposure.lit_alike ? *exposure.photo : 0].data();
-		const ceres::ResidualBlockId id = problem.AddResidualBlock(new RealLensLightCost(new RealLensPatches(exposure.light), int(exposure.light.patches.size())), nullptr,
+		const ceres::ResidualBlockId id = problem.AddResidualBlock(new RealLensLightCost(exposure.light), nullptr,
 			x.states[exposure.state].data(), x.lens.data(), x.c.data(), x.rims.data(), gradient);
 		if (!exposure.lit_alike)
 			problem.SetParameterBlockConstant(gradient);
@@ -186,8 +171,8 @@ std::vector<PhotographBlocks> Build(const RealLensFit& fit, const std::vector<Re
 		double* const pose = x.PoseOf(s, p).data();
 		if (photographs.empty() || photographs.back().pose != pose)
 			photographs.push_back({ {}, pose, s });
-		auto* const cost = new WeightedRealLensEdge{ edges[k++], 1 / std::hypot(e.offset_sigma, fit.error.offset), 1 / std::hypot(e.blur_sigma, fit.error.blur) };
-		photographs.back().residuals.push_back(problem.AddResidualBlock(new RealLensCost(cost), new ceres::HuberLoss(2.5 * std::sqrt(2.0)), x.states[s].data(), pose, x.centres[s].data(), x.lens.data(), x.c.data(), x.rims.data()));
+		auto* const cost = new RealLensEdgeCost(edges[k++], 1 / std::hypot(e.offset_sigma, fit.error.offset), 1 / std::hypot(e.blur_sigma, fit.error.blur));
+		photographs.back().residuals.push_back(problem.AddResidualBlock(cost, new ceres::HuberLoss(2.5 * std::sqrt(2.0)), x.states[s].data(), pose, x.centres[s].data(), x.lens.data(), x.c.data(), x.rims.data()));
 	});
 	if (!x.lens_held)
 		AddLight(fit, x, problem, photographs);
@@ -222,6 +207,32 @@ std::vector<const double*> SharedBlocks(const RealLensNumbers& x)
 	for (const auto& state : x.states)
 		blocks.push_back(state.data());
 	return blocks;
+}
+
+/// The photographs with the edges of a subset.
+std::vector<PhotographBlocks> WithEdges(const std::vector<PhotographBlocks>& photographs, const EdgeSubset& subset)
+{
+	std::vector<PhotographBlocks> part = photographs;
+	size_t k = 0;
+	for (PhotographBlocks& p : part)
+	{
+		std::vector<ceres::ResidualBlockId> kept;
+		for (const ceres::ResidualBlockId id : p.residuals)
+			if (subset[k++])
+				kept.push_back(id);
+		p.residuals = std::move(kept);
+	}
+	return part;
+}
+
+Eigen::VectorXd VarianceByParts(ceres::Problem& problem, const std::vector<PhotographBlocks>& photographs, const std::vector<EdgeSubset>& parts, const std::vector<const double*>& blocks)
+{
+	Eigen::VectorXd farthest = Eigen::VectorXd::Zero(Eigen::Index(PlacesOfBlocks(problem, {}).Of(blocks).size()));
+	for (const EdgeSubset& part : parts)
+		// Too few photographs or edges to tell all numbers apart say nothing against the whole.
+		if (const std::optional<PartsAnswer> alone = AnswerOfPart(problem, photographs, WithEdges(photographs, part), blocks))
+			farthest = farthest.cwiseMax(alone->step.cwiseAbs2() - alone->variance);
+	return farthest;
 }
 
 /// Of these blocks, scaled by the residuals; none: singular.
@@ -321,13 +332,6 @@ bool RealLensFit::Minimise(const std::vector<RealLensEdge>& edges, RealLensNumbe
 	return SolveLeastSquares(how, problem).has_value();
 }
 
-std::optional<Eigen::MatrixXd> RealLensFit::ByEdges(const std::vector<RealLensEdge>& edges, RealLensNumbers& x) const
-{
-	ceres::Problem problem;
-	Build(*this, edges, x, problem);
-	return CovarianceByEdges(problem, SharedBlocks(x));
-}
-
 std::optional<RealLensFit::Judged> RealLensFit::Judge(const std::vector<RealLensEdge>& edges, RealLensNumbers& x) const
 {
 	ceres::Problem problem;
@@ -343,6 +347,7 @@ std::optional<RealLensFit::Judged> RealLensFit::Judge(const std::vector<RealLens
 		judged.by_photographs = jackknife->Of(shared);
 		judged.held_out = jackknife->HeldOut();
 	}
+	judged.variance_by_parts = VarianceByParts(problem, photographs, FourHalvesOfEdges(task), shared);
 	return judged;
 }
 
@@ -353,8 +358,7 @@ double RealLensFit::ErrorOfLight(const RealLensNumbers& x) const
 	{
 		const RealLensPatches& light = exposure.light;
 		const size_t n = light.patches.size();
-		Eigen::VectorXd r{ long(n) };
-		light.See(x.states[exposure.state].data(), x.lens.data(), x.c.data(), x.rims.data(), x.gradients[exposure.lit_alike ? *exposure.photo : 0].data(), r.data());
+		Eigen::VectorXd r = light.See(x.states[exposure.state].data(), x.lens.data(), x.c.data(), x.rims.data(), x.gradients[exposure.lit_alike ? *exposure.photo : 0].data());
 		for (size_t i = 0; i < n; ++i)
 			r[long(i)] *= light.patches[i].weight;
 		r -= light.basis * (light.basis.transpose() * r);

@@ -72,16 +72,13 @@ struct RealLensFit
 		Eigen::MatrixXd by_edges;                    ///< of RealLensNumbers::InARow
 		std::optional<Eigen::MatrixXd> by_photographs;
 		double held_out = 0;                         ///< 0: cannot be had
+		/// Of every number what four halves of the edges (solve/half_of_edges.h), each by itself, are apart from the whole, linear about it, squared and less what the half
+		/// scatters itself: the farthest. What the model leaves out is the same in every photograph, by which neither residuals nor photographs scatter.
+		Eigen::VectorXd variance_by_parts;
 	};
 	/// `x` has poses of each state's own.
 	std::optional<Judged> Judge(const std::vector<RealLensEdge>& edges, RealLensNumbers& x) const;
-	/// Its first part alone.
-	std::optional<Eigen::MatrixXd> ByEdges(const std::vector<RealLensEdge>& edges, RealLensNumbers& x) const;
 };
-
-/// Of every number that Judged has, what four halves of the edges (solve/half_of_edges.h), each fitted alone from `x` on, linear as `edges` are, are apart from the whole, squared
-/// and less what the half scatters itself: the farthest. What the model leaves out is the same in every photograph, by which neither residuals nor photographs scatter.
-Eigen::VectorXd VarianceByParts(const RealLensFit& whole, const std::vector<RealLensEdge>& edges, const RealLensNumbers& x);
 
 struct RealLensAnswer
 {
@@ -92,7 +89,6 @@ struct RealLensAnswer
 	ModelError error;
 	std::vector<std::array<double, 2>> residuals;   ///< RealLensFit::Residuals
 	RealLensFit::Judged judged;
-	Eigen::VectorXd variance_by_parts;
 	double held_out_before = 0;   ///< of FitSceneLens: of the lens that it began with, in the same units
 };
 

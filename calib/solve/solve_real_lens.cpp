@@ -166,7 +166,7 @@ std::vector<double> SigmasOf(const RealLensAnswer& answer)
 	{
 		const double scatter = std::max(answer.judged.by_edges(k, k), answer.judged.by_photographs ? (*answer.judged.by_photographs)(k, k) : 0);
 		const bool aberration = k >= LENS_SIZE && k < LENS_SIZE + tilt_lens::AberrationTerms;
-		sigma.push_back(std::sqrt(std::max(scatter, 0.) + (aberration ? 0 : answer.variance_by_parts[k])));
+		sigma.push_back(std::sqrt(std::max(scatter, 0.) + (aberration ? 0 : answer.judged.variance_by_parts[k])));
 	}
 	return sigma;
 }

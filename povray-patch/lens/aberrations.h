@@ -132,6 +132,14 @@ inline AberrationHessian<T> HessianOfAberrations(const T* c, const T& P, const T
 // The map
 // ---------------------------------------------------------------------------
 
+/// The shift that the gradient of g makes of (S, b).
+template<typename T>
+inline PupilRay<T> ShiftOfRay(const AberrationGradient<T>& g, const PupilRay<T>& ray, const T& u, const T& v, const T& inverse_radius)
+{
+	return { -(T(2) * ray.slope_x * g.P + u * g.R), -(T(2) * ray.slope_y * g.P + v * g.R),
+	         (ray.slope_x * g.R + T(2) * u * g.Q) * inverse_radius, (ray.slope_y * g.R + T(2) * v * g.Q) * inverse_radius };
+}
+
 /// S, b from S0, b0: what is not linear.
 /// FifthOrder: false where the ten numbers of the fifth order are zero, for its time.
 template<bool FifthOrder = true, typename T = double>
@@ -148,8 +156,8 @@ inline PupilRay<T> Aberrate(const Aberrations<T>& a, const PupilRay<T>& ray)
 		const AberrationGradient<T> fifth = FifthOrderGradient(a.c, P, R, Q);
 		g = { g.P + fifth.P, g.R + fifth.R, g.Q + fifth.Q };
 	}
-	return { ray.x - (T(2) * ray.slope_x * g.P + u * g.R), ray.y - (T(2) * ray.slope_y * g.P + v * g.R),
-	         ray.slope_x + (ray.slope_x * g.R + T(2) * u * g.Q) * inverse, ray.slope_y + (ray.slope_y * g.R + T(2) * v * g.Q) * inverse };
+	const PupilRay<T> shift = ShiftOfRay(g, ray, u, v, inverse);
+	return { ray.x + shift.x, ray.y + shift.y, ray.slope_x + shift.slope_x, ray.slope_y + shift.slope_y };
 }
 
 /// The linear part, image side to object side, and back.
@@ -210,6 +218,31 @@ inline void AberrationJacobian(const Aberrations<T>& a, const PupilRay<T>& ray, 
 			J[2 + i][j] = (T(2) * one * g.Q + b[i] * R_q + T(2) * q[i] * Q_q) * inverse;
 			J[2 + i][2 + j] = one + (one * g.R + b[i] * R_b + T(2) * q[i] * Q_b) * inverse;
 		}
+	}
+}
+
+/// The derivative of Aberrate by each of c, in their order: the shift for c = 1.
+template<typename T>
+inline void AberrateByCoefficients(const Aberrations<T>& a, const PupilRay<T>& ray, PupilRay<T> by[AberrationTerms])
+{
+	const T inverse = T(1) / a.radius;
+	const T u = ray.x * inverse, v = ray.y * inverse;
+	// Powers of P, R and Q: 0 below the zeroth, so that a derivative of a constant is 0.
+	T powers[3][5];
+	const T invariants[3] = { ray.slope_x * ray.slope_x + ray.slope_y * ray.slope_y, ray.slope_x * u + ray.slope_y * v, u * u + v * v };
+	for(int i = 0; i < 3; i++)
+	{
+		powers[i][0] = T(0);
+		powers[i][1] = T(1);
+		for(int k = 2; k < 5; k++)
+			powers[i][k] = powers[i][k - 1] * invariants[i];
+	}
+	for(int k = 0; k < AberrationTerms; k++)
+	{
+		const int *n = AberrationPowers[k];
+		const T *P = powers[0] + n[0], *R = powers[1] + n[1], *Q = powers[2] + n[2];
+		const AberrationGradient<T> g = { T(n[0]) * P[0] * R[1] * Q[1], T(n[1]) * P[1] * R[0] * Q[1], T(n[2]) * P[1] * R[1] * Q[0] };
+		by[k] = ShiftOfRay(g, ray, u, v, inverse);
 	}
 }
 

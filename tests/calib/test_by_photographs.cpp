@@ -7,8 +7,10 @@
 #include <ceres/ceres.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <Eigen/QR>
 
+#include <algorithm>
 #include <random>
 
 namespace
@@ -63,25 +65,36 @@ Eigen::Vector2d Fit(const std::vector<Sample>& all, size_t photos, size_t withou
 	return A.completeOrthogonalDecomposition().solve(y).head<2>();
 }
 
+/// A problem that stands at its minimum.
+struct Fitted
+{
+	ceres::Problem problem;
+	std::vector<double> own;
+	std::vector<PhotographBlocks> blocks;
+	double shared[2];
+
+	Fitted(const std::vector<Sample>& all, size_t photos) : own(photos), blocks(photos)
+	{
+		const Eigen::Vector2d start = Fit(all, photos, size_t(-1));
+		std::copy_n(start.data(), 2, shared);
+		for (const Sample& s : all)
+		{
+			blocks[s.photo].group = s.group;
+			blocks[s.photo].pose = &own[s.photo];
+			blocks[s.photo].residuals.push_back(problem.AddResidualBlock(new ceres::AutoDiffCostFunction<Line, 1, 2, 1>(new Line{ s.x, s.z, s.y }), nullptr, shared, &own[s.photo]));
+		}
+		ceres::Solver::Summary summary;
+		ceres::Solve(ceres::Solver::Options(), &problem, &summary);
+	}
+};
+
 std::optional<Eigen::Matrix2d> Jackknifed(const std::vector<Sample>& all, size_t photos)
 {
-	const Eigen::Vector2d start = Fit(all, photos, size_t(-1));
-	double shared[2] = { start[0], start[1] };
-	std::vector<double> own(photos);
-	ceres::Problem problem;
-	std::vector<PhotographBlocks> blocks(photos);
-	for (const Sample& s : all)
-	{
-		blocks[s.photo].group = s.group;
-		blocks[s.photo].pose = &own[s.photo];
-		blocks[s.photo].residuals.push_back(problem.AddResidualBlock(new ceres::AutoDiffCostFunction<Line, 1, 2, 1>(new Line{ s.x, s.z, s.y }), nullptr, shared, &own[s.photo]));
-	}
-	ceres::Solver::Summary summary;
-	ceres::Solve(ceres::Solver::Options(), &problem, &summary);
-	const std::optional<CovarianceByPhotographs> c = JackknifeOverPhotographs(problem, blocks);
+	Fitted fitted(all, photos);
+	const std::optional<CovarianceByPhotographs> c = JackknifeOverPhotographs(fitted.problem, fitted.blocks);
 	if (!c)
 		return std::nullopt;
-	return Eigen::Matrix2d(c->Of({ shared }));
+	return Eigen::Matrix2d(c->Of({ fitted.shared }));
 }
 
 TEST(ByPhotographs, IsTheJackknifeOfFitsThatLeaveEachOut)
@@ -120,6 +133,47 @@ TEST(ByPhotographs, HoldsWhatPhotographsHaveInCommon)
 	// The variance of 200 draws is known to sqrt(2/200) = 0.1 of itself; the jackknife of 10 is up to 10/9 too large. Independent edges
 	// would give (0.1^2/400) / (0.05^2/10) = 0.1 of it.
 	EXPECT_NEAR(variance / true_variance, 1.05, 3 * 0.1 + 0.06);
+}
+
+// Of every photograph its first samples: linear residuals, so that one step is the part's own fit, and its variance that of the textbook.
+TEST(ByPhotographs, APartsAnswerIsItsOwnFit)
+{
+	const size_t photos = 6, kept = 15;
+	const std::vector<Sample> all = Draw(photos, 2, 0.05, 4);
+	Fitted fitted(all, photos);
+	std::vector<PhotographBlocks> part = fitted.blocks;
+	for (PhotographBlocks& p : part)
+		p.residuals.resize(kept);
+	std::vector<Sample> samples;
+	for (size_t p = 0, at = 0; p < photos; ++p, at += 40)
+		samples.insert(samples.end(), all.begin() + long(at), all.begin() + long(at + kept));
+	const std::optional<PartsAnswer> answer = AnswerOfPart(fitted.problem, fitted.blocks, part, { fitted.shared });
+	ASSERT_TRUE(answer);
+	const Eigen::Vector2d alone = Fit(samples, photos, size_t(-1));
+	// Rounding: as in the jackknife above.
+	for (int i = 0; i < 2; ++i)
+		EXPECT_NEAR(fitted.shared[i] + answer->step[i], alone[i], 1e-9);
+
+	Eigen::MatrixXd A = Eigen::MatrixXd::Zero(Eigen::Index(samples.size()), Eigen::Index(photos) + 2);
+	Eigen::VectorXd y(A.rows());
+	for (size_t i = 0; i < samples.size(); ++i)
+	{
+		A.row(Eigen::Index(i)).head<2>() << samples[i].x, samples[i].z;
+		A(Eigen::Index(i), Eigen::Index(samples[i].photo) + 2) = 1;
+		y[Eigen::Index(i)] = samples[i].y;
+	}
+	const Eigen::VectorXd x = A.completeOrthogonalDecomposition().solve(y);
+	const Eigen::MatrixXd covariance = (A * x - y).squaredNorm() / double(A.rows() - A.cols()) * (A.transpose() * A).inverse();
+	for (int i = 0; i < 2; ++i)
+		EXPECT_NEAR(answer->variance[i], covariance(i, i), 1e-9 * covariance(i, i));
+	EXPECT_EQ(AnswerOfPart(fitted.problem, fitted.blocks, part, {})->step.size(), 0);
+
+	// Without x it tells no slope.
+	std::vector<Sample> level = all;
+	for (Sample& s : level)
+		s.x = 0;
+	Fitted blind(level, photos);
+	EXPECT_FALSE(AnswerOfPart(blind.problem, blind.blocks, blind.blocks, { blind.shared }));
 }
 
 TEST(ByPhotographs, OnePhotographThatSaysAllCannotBeJudged)

@@ -189,6 +189,30 @@ TEST(Aberrations, DerivativesAreThoseOfTheSum)
 	}
 }
 
+// The map is linear in c: its derivative by one of them is the map of that one alone, less the identity, wherever the others stand.
+TEST(Aberrations, DerivativeByCoefficientsIsOfTheMap)
+{
+	std::mt19937_64 random = Generator(5);
+	for(int i = 0; i < 100; i++)
+	{
+		Aberrations<Real> a = RandomAberrations(random, 0.05), alone = a;
+		const R4 ray = RandomRay(random, a.radius);
+		PupilRay<Real> by[AberrationTerms];
+		AberrateByCoefficients(a, ray, by);
+		for(int term = 0; term < AberrationTerms; term++)
+		{
+			for(int k = 0; k < AberrationTerms; k++)
+				alone.c[k] = k == term ? 1.0L : 0.0L;
+			const R4 seen = Aberrate<true>(alone, ray);
+			// Some ten operations of long double on numbers up to 10, and what is left of their difference.
+			EXPECT_NEAR(double(seen.x - ray.x - by[term].x), 0, 1e-16) << term;
+			EXPECT_NEAR(double(seen.y - ray.y - by[term].y), 0, 1e-16) << term;
+			EXPECT_NEAR(double(seen.slope_x - ray.slope_x - by[term].slope_x), 0, 1e-16) << term;
+			EXPECT_NEAR(double(seen.slope_y - ray.slope_y - by[term].slope_y), 0, 1e-16) << term;
+		}
+	}
+}
+
 // Twice the numbers, four times the error, for every term and for all of them: symplectic but for g squared.
 TEST(Aberrations, IsSymplecticToItsOrder)
 {
