@@ -90,7 +90,7 @@ try
 	app.add_option("--jobs", jobs, "scenes at a time")->check(CLI::Range(1, 64));
 	CLI::Option *quickly = app.add_flag("--quick", quick, "smaller pictures, fewer settings");
 	CLI::Option *benched = app.add_flag("--bench", bench, "what a change is worth, in minutes: larger pictures, few settings; stock and the truths, by the first --ours, are made once and kept in --work")->excludes(quickly);
-	app.add_option("--size", size, "640x360 or 1920x1080: larger pictures, few settings, no tilted planes; times are those of whole pictures")
+	app.add_option("--size", size, "640x360 or 1920x1080: larger pictures, few settings, no tilted planes; of their middle alone")
 		->check(CLI::IsMember({"640x360", "1920x1080"}))->excludes(quickly)->excludes(benched);
 	app.add_flag("--list", list, "list the contests");
 	app.add_flag("--reuse-stock", reuse_stock, "take stock's pictures and times from an earlier race; for work on tilt_lens");

@@ -73,7 +73,7 @@ int Renderer::Pad(const Setting& setting) const
 }
 
 Renderer::Renderer(const Programs& all, const RaceScene& shown, const fs::path& folder, const std::string& name, const RaceSettings& settings)
-	: programs(all), scene(shown), work(folder / name), cache(folder / "cache"), width(settings.width), height(settings.height), whole{0, 0, width, height},
+	: programs(all), scene(shown), work(folder / name), cache(folder / "cache"), width(settings.width), height(settings.height),
 	  judged{(width - settings.judged_width) / 2, (height - settings.judged_height) / 2, settings.judged_width, settings.judged_height}
 {
 	for (const fs::path& program : {programs.ours, programs.stock, programs.reference})
@@ -111,11 +111,11 @@ std::vector<std::string> Renderer::Command(const fs::path& program, const Settin
 	return command;
 }
 
-Rendered Renderer::Run(const fs::path& program, const Setting& setting, const Part& part) const
+Rendered Renderer::Run(const fs::path& program, const Setting& setting) const
 {
 	const fs::path file = work / "picture.ppm";
 	fs::remove(file);
-	const Cost cost = RunMeasured(Command(program, setting, width, height, part), work, work / "povray.log");
+	const Cost cost = RunMeasured(Command(program, setting, width, height, judged), work, work / "povray.log");
 	const Picture picture = ReadPpm(file.string());
 	const int pad = Pad(setting);
 	if (picture.width != width + 2 * pad || picture.height != height + 2 * pad)
@@ -125,14 +125,14 @@ Rendered Renderer::Run(const fs::path& program, const Setting& setting, const Pa
 
 Rendered Renderer::Render(const Setting& setting) const
 {
-	return Run(setting.opponent == Opponent::STOCK ? programs.stock : programs.ours, setting, whole);
+	return Run(setting.opponent == Opponent::STOCK ? programs.stock : programs.ours, setting);
 }
 
 std::string Renderer::Key(const fs::path& program, const Setting& setting) const
 {
 	std::string text = Contents(scene.file) + Contents(scene.file.parent_path() / "race_camera.inc");
 	text += fmt::format("{} {}\n", judged.width, judged.height);
-	for (const std::string& word : Command("", setting, width, height, whole))
+	for (const std::string& word : Command("", setting, width, height, judged))
 		if (word.compare(0, 2, "+I") != 0 && word.compare(0, 2, "+L") != 0)
 			text += word + "\n";
 	return fmt::format("{}-{:016x}", scene.name, Hash(text) ^ HashOfProgram(program));
@@ -144,7 +144,7 @@ Picture Renderer::Reference(const Setting& setting) const
 	const fs::path file = cache / (Key(program, setting) + ".raw");
 	if (fs::exists(file))
 		return ReadRaw(file.string(), judged.width, judged.height);
-	const Picture picture = Run(program, setting, judged).picture;
+	const Picture picture = Run(program, setting).picture;
 	// A race that is interrupted must not leave half a picture.
 	fs::path partial = file;
 	partial += fmt::format(".{}", scene.name);

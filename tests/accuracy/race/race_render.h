@@ -29,10 +29,10 @@ public:
 	Renderer(const Programs& all, const RaceScene& shown, const std::filesystem::path& folder, const std::string& name,
 		const RaceSettings& settings);
 
-	// Renders, and measures, the whole picture; what is returned is the part that is judged.
+	// Renders, and measures, the part that is judged.
 	Rendered Render(const Setting& setting) const;
 
-	// The judged part, by the reference's program, which renders no more. Kept on disk, and read from there when program, scene and setting are the same.
+	// The same by the reference's program. Kept on disk, and read from there when program, scene and setting are the same.
 	Picture Reference(const Setting& setting) const;
 
 	// As Render, or, when `reuse`, what an earlier race with the same program, scene and setting found.
@@ -55,12 +55,12 @@ private:
 		int left, top, width, height;
 	};
 	std::vector<std::string> Command(const std::filesystem::path& program, const Setting& setting, int w, int h, const Part& part) const;
-	Rendered Run(const std::filesystem::path& program, const Setting& setting, const Part& part) const;
+	Rendered Run(const std::filesystem::path& program, const Setting& setting) const;
 	std::string Key(const std::filesystem::path& program, const Setting& setting) const;
 
 	Programs programs;
 	RaceScene scene;
 	std::filesystem::path work, cache;
 	int width, height;
-	Part whole, judged;
+	Part judged;
 };

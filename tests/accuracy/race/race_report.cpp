@@ -271,7 +271,7 @@ void WritePage(const RaceReport& report, const fs::path& out, const fs::path& wo
 		"<li>Curves are the lower left of all settings, convex in logarithms. &gt;: the opponent never got there, its last slope, or that of plain averaging "
 		"if steeper, is taken on; &lt;: the same for ours, with the flatter slope; ~: both.</li>\n"
 		"<li>Truths are the mean of independent sets of tilt_lens's fixed samples, and are checked against averaged pinholes of stock, which share no code with them.</li>\n"
-		<< (report.settings.judged_width < report.settings.width ? fmt::format("<li>Times are those of whole pictures, errors those of the {} x {} pixels in the middle.</li>\n",
+		<< (report.settings.judged_width < report.settings.width ? fmt::format("<li>Rendered, timed and judged are the {} x {} pixels in the middle.</li>\n",
 			report.settings.judged_width, report.settings.judged_height) : "")
 		<< (report.reused_stock ? "<li><b>Stock's times come from an earlier race</b>: not interleaved.</li>\n" : "") << "</ul>\n";
 	for (const Contest& contest : report.contests)

@@ -46,7 +46,7 @@ std::vector<RaceScene> ReadScenes(const std::filesystem::path& folder);
 struct RaceSettings
 {
 	int width = 0, height = 0;
-	int judged_width = 0, judged_height = 0; // of the part in the middle where errors are taken
+	int judged_width = 0, judged_height = 0; // of the part in the middle that is rendered, timed and judged
 	int repeats = 0;
 	double longest_run = 0; // CPU seconds; settings that would need more are left out
 	double enough = 0; // an opponent's ladder of fixed N ends below this error

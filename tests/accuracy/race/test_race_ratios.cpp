@@ -157,8 +157,8 @@ TEST(RaceSettings, SizesAreThoseOfTheirNames)
 {
 	const RaceSettings half = ReadSettings(RACE_SETTINGS, "640x360"), full = ReadSettings(RACE_SETTINGS, "1920x1080");
 	EXPECT_EQ(half.width, 640);
-	EXPECT_EQ(half.judged_width, 640);
-	EXPECT_EQ(half.judged_height, 360);
+	EXPECT_EQ(half.judged_width, 320);
+	EXPECT_EQ(half.judged_height, 180);
 	EXPECT_EQ(full.height, 1080);
 	EXPECT_LT(full.judged_width, full.width);
 	EXPECT_EQ(full.pinhole_frames, 0);
