@@ -46,8 +46,11 @@ Eigen::MatrixXd Derivatives(const Eigen::VectorXd& x, double nx, double ny, doub
 FitResponse::FitResponse(double nx, double ny, double diameter, double reach, double own)
 {
 	const Eigen::VectorXd x = Samples(reach);
+	// A blur narrower than the samples lie apart would fall between them along the pixels' rows and columns: none would know of it.
+	const double narrowest = SoftDiameter(4 * reach / SAMPLES), fitted = SoftDiameter(diameter);
+	const double told = std::abs(fitted) < narrowest ? std::copysign(narrowest, fitted) : fitted;
 	// What a change of the light at each sample does to the four.
-	const Eigen::MatrixXd pseudo_inverse = Derivatives(x, nx, ny, SoftDiameter(diameter)).colPivHouseholderQr().solve(Eigen::MatrixXd::Identity(SAMPLES, SAMPLES));
+	const Eigen::MatrixXd pseudo_inverse = Derivatives(x, nx, ny, told).colPivHouseholderQr().solve(Eigen::MatrixXd::Identity(SAMPLES, SAMPLES));
 	const double box_a = Widened(nx, own), box_b = Widened(ny, own), most = reach + box_a + box_b;
 	first = -most;
 	step = 2 * most / (NODES - 1);

@@ -25,6 +25,9 @@ std::optional<RealLensNumbers> AboutSharedPoses(const RealLensFit& fit, const st
 	return fit.Minimise(edges, x, false) ? std::optional(x) : std::nullopt;
 }
 
+/// As of the other effects, in sigmas.
+const double SIGNIFICANT = 2;
+
 /// Where a fit's answer went beyond what its edges are true about.
 const int FURTHER_ROUNDS = 3;
 
@@ -68,19 +71,51 @@ bool GoRounds(RealLensFit& fit, RealLensNumbers& x, std::vector<RealLensEdge>& e
 	return done;
 }
 
-std::optional<RealLensAnswer> Answer(const RealLensFit& fit, const std::vector<RealLensEdge>& edges, const Geometry& geometry, RealLensNumbers x)
+RealLensAnswer AnswerOf(const RealLensFit& fit, const std::vector<RealLensEdge>& edges, const Geometry& geometry, const RealLensNumbers& x, const RealLensFit::Judged& judged)
 {
 	RealLensAnswer answer;
 	answer.error = fit.error;
 	answer.residuals = fit.Residuals(edges, x);
-	const std::optional<RealLensFit::Judged> judged = fit.Judge(edges, x);
-	if (!judged)
-		return std::nullopt;
-	answer.judged = *judged;
+	answer.judged = judged;
 	answer.numbers = x;
 	if (geometry.shared_poses)
 		answer.about_shared_poses = AboutSharedPoses(fit, edges, geometry, x);
 	return answer;
+}
+
+/// Six numbers that were fitted.
+struct Solved
+{
+	RealLensFit fit;
+	std::vector<RealLensEdge> edges;
+	RealLensNumbers x;
+
+	/// Minus the logarithm of the likelihood of places and blurs is their number times that of this, but for a constant.
+	double Misfit() const { return fit.error.offset * fit.error.blur; }
+};
+
+std::optional<Solved> SolveWith(const Task& task, RealLensNumbers x, bool rims_know_pupils)
+{
+	for (int k = 0; k < tilt_lens::ThirdOrderTerms; ++k)
+		x.free[size_t(k)] = true;
+	x.magnification_free = true;
+	RealLensFit fit{ task };
+	fit.rims_know_pupils = rims_know_pupils;
+	std::vector<RealLensEdge> edges = fit.EdgesAbout(x);
+	if (!GoRounds(fit, x, edges, 4))
+		return std::nullopt;
+	return Solved{ fit, std::move(edges), std::move(x) };
+}
+
+bool IsBehind(const tilt_lens::Rim& rim) { return rim.distance < 0; }
+
+/// Light hardly tells a lone rim before the lens from one behind it, and a thin lens's edges go by what its aberrations do to them: both are tried. Of two, the second's side was told beside the first's.
+std::vector<std::vector<tilt_lens::Rim>> SidesOf(const std::vector<tilt_lens::Rim>& rims)
+{
+	std::vector<std::vector<tilt_lens::Rim>> all{ rims };
+	if (rims.size() == 1)
+		all.push_back({ { rims[0].radius, -rims[0].distance } });
+	return all;
 }
 
 /// What the powers of the slopes make of a term.
@@ -92,6 +127,40 @@ bool Divides(int third, int fifth)
 	for (int i = 0; i < 3; ++i)
 		divides &= tilt_lens::AberrationPowers[third][i] <= tilt_lens::AberrationPowers[fifth][i];
 	return divides;
+}
+
+}
+
+namespace
+{
+
+/// The steepest slope, before the lens, of the light of any state's corners, through the middle of its pupil.
+double SlopeOfCorners(const Task& task, const RealLensNumbers& x)
+{
+	double steepest = 0;
+	for (const auto& state : x.states)
+		for (const double u : { 0., task.width - 1. })
+			for (const double v : { 0., task.height - 1. })
+			{
+				const MountedLens<double> corner(state.data(), x.lens.data(), x.c.data(), x.r, task.pitch_mm, u, v);
+				steepest = std::max(steepest, corner.lens.pupil_magnification * std::hypot(corner.x, corner.y) / corner.depth);
+			}
+	return steepest;
+}
+
+/// Of the fifth-order numbers that are free and are not significant, the one that is least.
+std::optional<int> LeastSignificant(const RealLensFit::Judged& judged, const RealLensNumbers& x)
+{
+	double least = SIGNIFICANT;
+	std::optional<int> term;
+	for (int k = tilt_lens::ThirdOrderTerms; k < tilt_lens::AberrationTerms; ++k)
+		if (x.free[size_t(k)])
+			if (const double sigmas = std::abs(x.c[size_t(k)]) / std::sqrt(judged.Variance(LENS_SIZE + k)); sigmas < least)
+			{
+				least = sigmas;
+				term = k;
+			}
+	return term;
 }
 
 }
@@ -116,42 +185,58 @@ std::array<double, tilt_lens::AberrationTerms> LikelyFifthOrder(const std::array
 
 std::optional<RealLensAnswer> SolveRealLens(const Task& task, const Geometry& geometry, const Solution& thin, const std::vector<tilt_lens::Rim>& rims)
 {
-	const bool is_behind = std::any_of(rims.begin(), rims.end(), [](const tilt_lens::Rim& rim) { return rim.distance < 0; });
-	for (const bool rims_know_pupils : is_behind ? std::vector<bool>{ true, false } : std::vector<bool>{ false })
-	{
-		RealLensNumbers x = StartOfRealLens(task, geometry, thin, rims);
-		for (int k = 0; k < tilt_lens::ThirdOrderTerms; ++k)
-			x.free[size_t(k)] = true;
-		x.magnification_free = true;
-		RealLensFit fit{ task };
-		fit.rims_know_pupils = rims_know_pupils;
-		std::vector<RealLensEdge> edges = fit.EdgesAbout(x);
-		if (GoRounds(fit, x, edges, 4))
-			return Answer(fit, edges, geometry, x);
-	}
-	return std::nullopt;
+	std::optional<Solved> best;
+	for (const std::vector<tilt_lens::Rim>& sides : SidesOf(rims))
+		for (const bool rims_know_pupils : { true, false })
+		{
+			if (rims_know_pupils && std::none_of(sides.begin(), sides.end(), IsBehind))
+				continue;
+			std::optional<Solved> solved = SolveWith(task, StartOfRealLens(task, geometry, thin, sides), rims_know_pupils);
+			if (solved && (!best || solved->Misfit() < best->Misfit()))
+				best.emplace(std::move(*solved));
+		}
+	if (!best)
+		return std::nullopt;
+	const std::optional<RealLensFit::Judged> judged = best->fit.Judge(best->edges, best->x);
+	return judged ? std::optional(AnswerOf(best->fit, best->edges, geometry, best->x, *judged)) : std::nullopt;
 }
 
 std::optional<RealLensAnswer> SolveSceneLens(const Task& task, const Geometry& geometry, const RealLensNumbers& six)
 {
 	RealLensNumbers x = six;
 	x.free.fill(true);
+	// The one number of the fifth order that no image shows: P^3 moves the pupil alone. Edges would take for it how the opening itself shifts with the field, and
+	// where no board was it grows with the fifth power of the slope: rims cut black corners by it.
+	x.free[tilt_lens::Fifth_PPP] = false;
 	RealLensFit fit{ task, FINE };
 	fit.rims_about = x.rims;
 	if (!x.sides.empty())
 		fit.exposures = ExposuresOf(task, geometry.shared_poses, x.r, x.sides);
 	x.rims_free = !fit.exposures.empty();
-	fit.likely_c = LikelyFifthOrder(x.c, 0.5 * std::hypot(task.width, task.height) / x.states[0][W]);
+	fit.likely_c = LikelyFifthOrder(x.c, SlopeOfCorners(task, x));
 	std::vector<RealLensEdge> edges = fit.EdgesAbout(x);
 	if (!GoRounds(fit, x, edges, 5))
 		return std::nullopt;
-	std::optional<RealLensAnswer> answer = Answer(fit, edges, geometry, x);
+	std::optional<RealLensFit::Judged> judged = fit.Judge(edges, x);
+	while (judged)
+	{
+		const std::optional<int> idle = LeastSignificant(*judged, x);
+		if (!idle)
+			break;
+		x.free[size_t(*idle)] = false;
+		x.c[size_t(*idle)] = 0;
+		if (!GoRounds(fit, x, edges, 1))
+			return std::nullopt;
+		judged = fit.Judge(edges, x);
+	}
+	if (!judged)
+		return std::nullopt;
+	RealLensAnswer answer = AnswerOf(fit, edges, geometry, x, *judged);
 	// The same units: what this lens leaves out.
 	const RealLensFit before{ task, FEW, fit.error };
 	RealLensNumbers y = six;
-	const std::optional<RealLensFit::Judged> judged = before.Judge(before.EdgesAbout(y), y);
-	if (answer && judged)
-		answer->held_out_before = judged->held_out;
+	if (const std::optional<RealLensFit::Judged> of_six = before.Judge(before.EdgesAbout(y), y))
+		answer.held_out_before = of_six->held_out;
 	return answer;
 }
 

@@ -291,6 +291,9 @@ RealLensNumbers StartOfRealLens(const Task& task, const Geometry& geometry, cons
 		power += 1 / thin.states[s].focal_length.value / double(task.states.size());
 	}
 	x.lens = { power * task.pitch_mm, 1, 1, thin.psf_floor_squared.value };
+	// What the thin lens's own do to its rays, to first order: x (1 + k1 tan^2), and R = v - kappa S with kappa + C tan^2.
+	x.c[tilt_lens::Distortion] = -geometry.distortion[0] * x.r;
+	x.c[tilt_lens::Curvature] = -0.5 * thin.field_curvature.value * x.r * x.r;
 	return x;
 }
 

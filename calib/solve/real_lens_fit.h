@@ -8,6 +8,7 @@
 #include "solve/joint_fit.h"
 #include "solve/real_lens_light.h"
 
+#include <algorithm>
 #include <optional>
 #include <vector>
 
@@ -39,7 +40,7 @@ struct RealLensNumbers
 	const Pose& PoseOf(size_t s, size_t p) const { return poses[shared_poses ? 0 : s][p]; }
 };
 
-/// From the thin lens that was found: its poses, planes and aperture; no aberrations.
+/// From the thin lens that was found: its poses, planes, aperture, distortion and field curvature.
 RealLensNumbers StartOfRealLens(const Task& task, const Geometry& geometry, const Solution& thin, const std::vector<tilt_lens::Rim>& rims);
 
 struct RealLensFit
@@ -75,6 +76,9 @@ struct RealLensFit
 		/// Of every number what four halves of the edges (solve/half_of_edges.h), each by itself, are apart from the whole, linear about it, squared and less what the half
 		/// scatters itself: the farthest. What the model leaves out is the same in every photograph, by which neither residuals nor photographs scatter.
 		Eigen::VectorXd variance_by_parts;
+
+		/// By edges or photographs, the larger.
+		double Variance(int k) const { return std::max(by_edges(k, k), by_photographs ? (*by_photographs)(k, k) : 0); }
 	};
 	/// `x` has poses of each state's own.
 	std::optional<Judged> Judge(const std::vector<RealLensEdge>& edges, RealLensNumbers& x) const;
@@ -96,7 +100,7 @@ struct RealLensAnswer
 /// vignettes, as lens/optical_vignetting.h has it; at most MOST_RIMS of them. None: no convergence, or singular.
 std::optional<RealLensAnswer> SolveRealLens(const Task& task, const Geometry& geometry, const Solution& thin, const std::vector<tilt_lens::Rim>& rims);
 
-/// The ten of the fifth order too, and the rims, which the light tells together with the edges, from SolveRealLens' answer on.
+/// Those of the fifth order that are significant too, and the rims, which the light tells together with the edges, from SolveRealLens' answer on.
 std::optional<RealLensAnswer> SolveSceneLens(const Task& task, const Geometry& geometry, const RealLensNumbers& six);
 
 /// Standard deviations of the fifth-order numbers, mm, 0 before them: at the rim of lens and picture, where the slope is `slope`, a term is likely no more than

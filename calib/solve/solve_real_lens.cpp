@@ -164,9 +164,8 @@ std::vector<double> SigmasOf(const RealLensAnswer& answer)
 	std::vector<double> sigma;
 	for (int k = 0; k < answer.judged.by_edges.rows(); ++k)
 	{
-		const double scatter = std::max(answer.judged.by_edges(k, k), answer.judged.by_photographs ? (*answer.judged.by_photographs)(k, k) : 0);
 		const bool aberration = k >= LENS_SIZE && k < LENS_SIZE + tilt_lens::AberrationTerms;
-		sigma.push_back(std::sqrt(std::max(scatter, 0.) + (aberration ? 0 : answer.judged.variance_by_parts[k])));
+		sigma.push_back(std::sqrt(std::max(answer.judged.Variance(k), 0.) + (aberration ? 0 : answer.judged.variance_by_parts[k])));
 	}
 	return sigma;
 }
@@ -184,7 +183,6 @@ RealLens Described(const Task& task, const RealLensAnswer& answer, const std::ve
 	found.psf_floor_squared = { x.lens[FLOOR_SQUARED], sigma[FLOOR_SQUARED] };
 	found.radius_mm = x.r;
 	found.rims = RimsOf(answer, rims, board);
-	found.fifth_order = x.free[tilt_lens::ThirdOrderTerms];
 	for (size_t k = 0; k < found.aberrations_mm.size(); ++k)
 		found.aberrations_mm[k] = { x.c[k], sigma[LENS_SIZE + k] };
 	for (size_t s = 0; s < task.states.size(); ++s)
@@ -235,6 +233,7 @@ RealLenses FindRealLens(const Task& task, const Geometry& geometry, const Soluti
 	if (sixteen && (!geometry.shared_poses || sixteen->about_shared_poses))
 	{
 		found.scene = Described(task, *sixteen, rims);
+		found.scene->fifth_order = true;
 		found.scene->held_out_thin = sixteen->held_out_before;
 		found.scene->seconds = more.Seconds();
 	}
