@@ -28,18 +28,25 @@ void Widen(const std::vector<double>& others, Estimate& told)
 }
 
 template<typename Number>
-std::vector<double> OfEach(const std::vector<const RealLens*>& lenses, Number number)
+auto OfEach(const std::vector<const RealLens*>& lenses, Number number)
 {
-	std::vector<double> numbers;
+	std::vector<decltype(number(*lenses[0]))> numbers;
 	for (const RealLens* lens : lenses)
 		numbers.push_back(number(*lens));
 	return numbers;
 }
 
-void WidenPoint(const Point& other, const Point& value, Point& sigma)
+void WidenPoint(const std::vector<Point>& others, const Point& value, Point& sigma)
 {
 	for (size_t axis = 0; axis < value.size(); ++axis)
-		sigma[axis] = std::hypot(sigma[axis], other[axis] - value[axis]);
+	{
+		std::vector<double> along;
+		for (const Point& other : others)
+			along.push_back(other[axis]);
+		Estimate told{ value[axis], sigma[axis] };
+		Widen(along, told);
+		sigma[axis] = told.sigma;
+	}
 }
 
 /// What both lenses state of the glass and of where it stands: its exit pupil is m times as far as what the pictures tell.
@@ -50,7 +57,7 @@ void WidenGlass(const RealLens& other, RealLens& told)
 	for (size_t s = 0; s < told.states.size(); ++s)
 	{
 		Widen({ other.states[s].image_distance_mm.value }, told.states[s].image_distance_mm);
-		WidenPoint(other.states[s].principal_point, told.states[s].principal_point, told.states[s].principal_point_sigma);
+		WidenPoint({ other.states[s].principal_point }, told.states[s].principal_point, told.states[s].principal_point_sigma);
 	}
 }
 
@@ -64,38 +71,38 @@ void WidenTilt(const StateLens& other, double part, StateLens& told)
 		told.tilt_direction.sigma = std::hypot(told.tilt_direction.sigma, part * lens.aside / told.lens_tilt.value * tilt_lens::DegreesPerRadian);
 }
 
-/// What stands for the fifth order in six numbers is in their third; sixteen share the light and the places out among numbers that six do not have.
-void WidenSixteen(const RealLens& six, RealLens& sixteen)
+/// What stands for the fifth order in six numbers is in their third; with the fifth, light and places are shared out among numbers that six do not have.
+void WidenFifth(const RealLens& six, RealLens& fifth)
 {
-	WidenGlass(six, sixteen);
+	WidenGlass(six, fifth);
 	for (size_t k = 0; k < tilt_lens::ThirdOrderTerms; ++k)
-		Widen({ six.aberrations_mm[k].value }, sixteen.aberrations_mm[k]);
-	for (size_t i = 0; i < std::min(six.rims.size(), sixteen.rims.size()); ++i)
+		Widen({ six.aberrations_mm[k].value }, fifth.aberrations_mm[k]);
+	for (size_t i = 0; i < std::min(six.rims.size(), fifth.rims.size()); ++i)
 	{
-		Widen({ six.rims[i].radius_mm.value }, sixteen.rims[i].radius_mm);
-		Widen({ six.rims[i].distance_mm.value }, sixteen.rims[i].distance_mm);
+		Widen({ six.rims[i].radius_mm.value }, fifth.rims[i].radius_mm);
+		Widen({ six.rims[i].distance_mm.value }, fifth.rims[i].distance_mm);
 	}
-	for (size_t s = 0; s < sixteen.states.size(); ++s)
+	for (size_t s = 0; s < fifth.states.size(); ++s)
 	{
-		WidenTilt(six.states[s].lens, 1, sixteen.states[s].lens);
-		Widen({ six.states[s].lens.focal_length.value }, sixteen.states[s].lens.focal_length);
+		WidenTilt(six.states[s].lens, 1, fifth.states[s].lens);
+		Widen({ six.states[s].lens.focal_length.value }, fifth.states[s].lens.focal_length);
 	}
 }
 
 /// The openings by the thin lens's aperture too: what the stop leaves open grows with the field, and each lens makes another disc of it.
-void WidenByEachOther(const Solution& thin, RealLens& six, std::optional<RealLens>& sixteen)
+void WidenByEachOther(const Solution& thin, RealLens& six, std::optional<RealLens>& fifth)
 {
 	const auto by_thin = [&](RealLens& lens)
 	{
 		for (Estimate RealLens::* opening : { &RealLens::aperture_diameter_mm, &RealLens::opening_on_axis_mm })
 			Widen({ thin.aperture_diameter.value }, lens.*opening);
 	};
-	if (sixteen && sixteen->failure.empty())
+	if (fifth && fifth->failure.empty())
 	{
-		if (sixteen->used)
-			WidenGlass(*sixteen, six);
-		WidenSixteen(six, *sixteen);
-		by_thin(*sixteen);
+		if (fifth->used)
+			WidenGlass(*fifth, six);
+		WidenFifth(six, *fifth);
+		by_thin(*fifth);
 	}
 	by_thin(six);
 }
@@ -108,13 +115,8 @@ void WidenTilts(Calibration& c)
 		return;
 	// The truth may be anywhere between the two: the root of the mean square of an even distribution.
 	const double between = 1 / std::sqrt(3.0);
-	c.as_they_scatter.clear();
 	for (size_t s = 0; s < c.real_lens->states.size(); ++s)
-	{
-		StateLens& told = c.real_lens->states[s].lens;
-		c.as_they_scatter.push_back(told);
-		WidenTilt(c.scene_lens->states[s].lens, between, told);
-	}
+		WidenTilt(c.scene_lens->states[s].lens, between, c.real_lens->states[s].lens);
 }
 
 void WidenByRealLens(Calibration& c)
@@ -127,6 +129,9 @@ void WidenByRealLens(Calibration& c)
 		lenses.push_back(&*c.scene_lens);
 	const std::vector<double> f = OfEach(lenses, [](const RealLens& l) { return l.focal_length_mm.value; });
 	const auto focus = [&](size_t s) { return OfEach(lenses, [s](const RealLens& l) { return l.states[s].best_focus_mm; }); };
+	// Untilted, where the real lens's exit pupil stands before the point that the thin lens's axis meets.
+	for (Geometry* told : { &c.geometry, &c.pinhole })
+		WidenPoint(OfEach(lenses, [](const RealLens& l) { return l.states[0].principal_point; }), told->states[0].principal_point, told->states[0].principal_point_sigma);
 	for (Solution* told : { &c.solution, &c.render })
 	{
 		Widen(f, told->focal_length);

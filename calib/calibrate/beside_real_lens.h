@@ -14,12 +14,11 @@ namespace tiltcal
 /// model that is known to be wrong, however little they scatter. Their sigmas are widened by how far the real lenses found put the same
 /// number elsewhere, the farther one's distance in quadrature: f and d those of the glass, w the distance of the exit pupil over the pupil
 /// magnification, U where the whole opening is sharpest. `covariance` and `sigma_by_photographs` stay what scatters.
-/// The real lenses are widened alike: f, pupil magnification and aperture of six and sixteen numbers by each other, the apertures by the thin lens's too, and all that
-/// the sixteen share with the six by the six, for closed loops through glass put theirs nearer to the truth (exit pupil, principal point, tilt).
+/// The real lenses are widened alike: f, pupil magnification and aperture of third and fifth order by each other, the apertures by the thin lens's too, and all that
+/// the fifth order shares with the third by the third, for closed loops through glass put theirs nearer to the truth (exit pupil, principal point, tilt).
 void WidenByRealLens(Calibration& c);
 
-/// The tilts that are told, those of six numbers, where sixteen predict photographs left out better and put them elsewhere. Before both are widened by WidenByRealLens.
-/// Fills Calibration::as_they_scatter.
+/// The tilts that are told, those of third order, where the fifth predicts photographs left out better and puts them elsewhere. Before both are widened by WidenByRealLens.
 void WidenTilts(Calibration& c);
 
 }

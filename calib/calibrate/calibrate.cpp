@@ -211,7 +211,7 @@ void FindRealLens(const CalibrateOptions& o, Calibration& c)
 		lens.used = asked || (lens.held_out > 0 && lens.held_out < WORTH_IT * lens.held_out_thin);
 		if (!lens.used || !o.scene_lens)
 			return false;
-		o.log.Info("solving it with ten more numbers, for scenes");
+		o.log.Info("solving it with the fifth order, for scenes");
 		return true;
 	});
 	c.real_lens = std::move(found.tilts);
@@ -230,7 +230,7 @@ void FindRealLens(const CalibrateOptions& o, Calibration& c)
 		return;
 	RealLens& scene = *c.scene_lens;
 	scene.used = scene.held_out > 0 && scene.held_out < WORTH_IT * scene.held_out_thin;
-	o.log.Info(fmt::format("sixteen numbers {} for scenes: photographs left out are predicted to {:.2f} of what is usual by them, to {:.2f} by six", scene.used ? "taken" : "not taken", scene.held_out, scene.held_out_thin));
+	o.log.Info(fmt::format("the fifth order {} for scenes: photographs left out are predicted to {:.2f} of what is usual with it, to {:.2f} by six numbers", scene.used ? "taken" : "not taken", scene.held_out, scene.held_out_thin));
 }
 
 /// What the size of the board adds to the sigmas of places; those of the lens hold it already.
@@ -267,7 +267,7 @@ void WidenWhereGlassShows(const CalibrateOptions& o, Calibration& c)
 		return;
 	o.log.Info("solving parts of the edges: how far they put the lens apart");
 	const Solution whole = c.solution;
-	c.as_they_scatter = whole.states;
+	c.thin_as_it_scatters = whole.states;
 	const std::vector<PartAnswer> parts = SolveParts(c);
 	const auto& priors = c.task.priors;
 	const bool told_f = std::any_of(priors.begin(), priors.end(), [](const Prior& p) { return p.quantity == Quantity::FOCAL_LENGTH; });

@@ -182,7 +182,7 @@ void Design::AddTilt(size_t k, const JointInformation& all)
 		tilts += along.dot(gradient) * all.planes.row(place.index).transpose();
 		aside += across.dot(gradient) * all.planes.row(place.index).transpose();
 	}
-	const StateLens& lens = c.TiltOf(k);
+	const StateLens& lens = c.TiltAsItScatters(k);
 	const double relative = c.task.board.square_sigma_mm / c.task.board.square_mm, size = std::abs(lens.lens_tilt.value);
 	Add(c.task.states[k].name + ".lens_tilt", "deg", lens.lens_tilt.sigma, WANTED_TILT, tilts, relative * size);
 	// Of a tilt near 0 the direction is nothing.

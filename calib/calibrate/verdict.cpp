@@ -101,10 +101,10 @@ private:
 	void Tilt(size_t s)
 	{
 		const double wanted = 0.03, sigma = c.TiltOf(s).lens_tilt.sigma;
-		const bool by_model = s < c.as_they_scatter.size() && c.as_they_scatter[s].lens_tilt.sigma <= wanted;
+		const bool by_model = c.TiltAsItScatters(s).lens_tilt.sigma <= wanted;
 		if (sigma > wanted)
 			Say(sigma > 0.15 ? Grade::POOR : Grade::FAIR, fmt::format("state {}: the tilt is known to {:.2f} degrees only: {}", StateName(s), sigma, by_model && c.RealLensIsUsed()
-				? "real lenses of six and of sixteen numbers put it apart: more photographs do not tell it better, a smaller aperture does"
+				? "parts of the edges, or the fifth order, put it apart: more photographs do not tell it better, a smaller aperture does"
 				: by_model
 				? "parts of the edges put it apart, by what a thin lens leaves out of the blur: more photographs do not tell it better, a smaller aperture does"
 				: "photograph the board in more poses, inclined so that it is sharp in one part and blurred in another"));
@@ -215,9 +215,12 @@ private:
 	void Limit()
 	{
 		const double rms = c.RealLensIsUsed() ? c.real_lens->rms_blur : c.solution.rms_blur, noise = NoiseOfBlur(c.task);
-		if (rms > MOST_OF_NOISE * noise)
-			Say(Grade::GOOD, fmt::format("the blur fits to {:.2f} px, its noise is {:.2f} px: what limits the result are aberrations that the model {} does not have, and the sigmas hold them only "
-				"as far as they scatter", rms, noise, NameOf(c.Answer())));
+		if (rms <= MOST_OF_NOISE * noise)
+			return;
+		// Tilts of a thin lens were seen several sigmas off where the glass is one that no real lens could be fitted to.
+		const bool no_lens = c.real_lens && !c.real_lens->failure.empty();
+		Say(c.RealLensIsUsed() ? Grade::GOOD : no_lens ? Grade::POOR : Grade::FAIR, fmt::format("the blur fits to {:.2f} px, its noise is {:.2f} px: what limits the result are aberrations that the model {} does "
+			"not have, and the sigmas hold them only as far as they scatter{}", rms, noise, NameOf(c.Answer()), no_lens ? ". No real lens could be fitted: photograph at a smaller aperture" : ""));
 	}
 
 	const Calibration& c;

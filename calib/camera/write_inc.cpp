@@ -177,9 +177,9 @@ std::string CameraInc(const Calibration& c, size_t s)
 	const std::string thin = ThinLensPart(c, s, p);
 	if (!c.RealLensIsUsed())
 		return out + thin;
-	// Six numbers that serve the boards say less than a thin lens at distances where no board stood; sixteen say more.
+	// Six numbers that serve the boards say less than a thin lens at distances where no board stood; the fifth order says more.
 	const std::string lenses = c.SceneLensIsUsed()
-		? "// 1: the real lens, by sixteen numbers, which predicts photographs of the board best; place it by what `tiltcal pose` finds through\n"
+		? "// 1: the real lens, of fifth order, which predicts photographs of the board best; place it by what `tiltcal pose` finds through\n"
 		  "// the real lens. Its tilt is its own, not quite the one that the calibration says. 0: the thin lens that comes nearest to it.\n"
 		: "// 1: the real lens, which has the tilts that the calibration says and predicts photographs of the board best.\n"
 		  "// 0: the thin lens that comes nearest to it, which is better at distances where no board stood.\n";

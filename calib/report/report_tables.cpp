@@ -239,7 +239,7 @@ std::string ModelsTable(const Calibration& c)
 	};
 	add_real(named(Model::LENS), *c.real_lens, NameOf(c.solution.model));
 	if (c.scene_lens)
-		add_real(std::string("lens, sixteen numbers") + (c.scene_lens->used ? " (for scenes)" : ""), *c.scene_lens, NameOf(Model::LENS));
+		add_real(std::string("lens, fifth order") + (c.scene_lens->used ? " (for scenes)" : ""), *c.scene_lens, NameOf(Model::LENS));
 	return html::Table(rows) + (told(*c.real_lens) ? std::string("<p><small>Of lens: places and blurs of the edges of photographs left out, each in what is usual of it, against the same of ") + NameOf(c.solution.model) +
 		" after its last refinement.</small></p>\n" : "");
 }

@@ -158,11 +158,11 @@ std::string RealLensText(const Calibration& c)
 	return out + (c.SceneLensIsUsed() ? "  it was taken: the tilts are its own\n" : "  it was taken: the tilts are its own; the .inc files have it where TiltCal_Real_Lens is 1\n");
 }
 
-/// Sixteen numbers.
+/// With the fifth order.
 std::string SceneLensText(const Calibration& c)
 {
 	const RealLens& lens = *c.scene_lens;
-	std::string out = fmt::format("  sixteen numbers {} for scenes: places of edges fit to {:.3f} px, their blurs to {:.3f} px", lens.used ? "taken" : "not taken", lens.rms_place, lens.rms_blur);
+	std::string out = fmt::format("  fifth order {} for scenes: places of edges fit to {:.3f} px, their blurs to {:.3f} px", lens.used ? "taken" : "not taken", lens.rms_place, lens.rms_blur);
 	if (lens.held_out > 0 && lens.held_out_thin > 0)
 		out += fmt::format(", photographs left out to {:.2f} of what is usual (six: {:.2f})", lens.held_out, lens.held_out_thin);
 	out += "\n    " + GlassText(lens);

@@ -88,14 +88,21 @@ RealLensState StateOf(const RealLensAnswer& answer, size_t s, size_t photographs
 	const Eigen::Vector4d thin = ThinLensOf(Eigen::Map<const Eigen::VectorXd>(stands.states[s].data(), STATE_SIZE), Eigen::Map<const Eigen::VectorXd>(x.lens.data(), LENS_SIZE), pitch_mm);
 	const Vec3<double> q{ thin[0], thin[1], thin[2] };
 	RealLensState state;
-	FillStateLens(q, thin[3], CovarianceOfThinLens(x, s, answer.judged.by_edges, pitch_mm), state.lens);
-	if (answer.judged.by_photographs)
-	{
-		StateLens by_photographs;
-		FillStateLens(q, thin[3], CovarianceOfThinLens(x, s, *answer.judged.by_photographs, pitch_mm), by_photographs);
-		WidenSigmas(by_photographs, state.lens);
-	}
 	const size_t at = size_t(PlaceOfState(s));
+	// Attitudes as parts put them apart; the linear part of the lens, which they put apart too, hardly moves a tilt.
+	Eigen::MatrixXd apart = Eigen::MatrixXd::Zero(answer.judged.by_edges.rows(), answer.judged.by_edges.cols());
+	for (const size_t k : { at + NX, at + NY })
+		apart(Eigen::Index(k), Eigen::Index(k)) = answer.judged.variance_by_parts[Eigen::Index(k)];
+	const auto fill = [&](const Eigen::MatrixXd& of_numbers, StateLens& lens) { FillStateLens(q, thin[3], CovarianceOfThinLens(x, s, of_numbers, pitch_mm), lens); };
+	for (const auto& [lens, beside] : { std::pair(&state.as_it_scatters, Eigen::MatrixXd(0 * apart)), std::pair(&state.lens, apart) })
+	{
+		fill(answer.judged.by_edges + beside, *lens);
+		if (!answer.judged.by_photographs)
+			continue;
+		StateLens by_photographs;
+		fill(*answer.judged.by_photographs + beside, by_photographs);
+		WidenSigmas(by_photographs, *lens);
+	}
 	state.image_distance_mm = { stands.states[s][W] * pitch_mm, sigma[at + W] * pitch_mm };
 	state.principal_point = { stands.states[s][CX], stands.states[s][CY] };
 	state.principal_point_sigma = { sigma[at + CX], sigma[at + CY] };
@@ -158,7 +165,7 @@ Estimate OpeningOnAxis(const RealLens& lens)
 }
 
 /// As the numbers scatter, and the lens's and where it stands as parts of the edges put them apart, too. Not the aberrations, which parts share out otherwise among
-/// themselves while their sum stays, nor the tilts, which are computed from the covariances and hold what the sixteen numbers say.
+/// themselves while their sum stays.
 std::vector<double> SigmasOf(const RealLensAnswer& answer)
 {
 	std::vector<double> sigma;
@@ -229,12 +236,12 @@ RealLenses FindRealLens(const Task& task, const Geometry& geometry, const Soluti
 	if (!judge(found.tilts))
 		return found;
 	const Stopwatch more;
-	const std::optional<RealLensAnswer> sixteen = SolveSceneLens(task, geometry, six->numbers);
-	if (sixteen && (!geometry.shared_poses || sixteen->about_shared_poses))
+	const std::optional<RealLensAnswer> fifth = SolveSceneLens(task, geometry, six->numbers);
+	if (fifth && (!geometry.shared_poses || fifth->about_shared_poses))
 	{
-		found.scene = Described(task, *sixteen, rims);
+		found.scene = Described(task, *fifth, rims);
 		found.scene->fifth_order = true;
-		found.scene->held_out_thin = sixteen->held_out_before;
+		found.scene->held_out_thin = fifth->held_out_before;
 		found.scene->seconds = more.Seconds();
 	}
 	return found;

@@ -83,13 +83,13 @@ TEST(BetweenParts, TheVerdictSaysWhatMorePhotographsDoNotMend)
 		return false;
 	};
 	ASSERT_LT(c.solution.states[1].lens_tilt.sigma, 0.03);
-	c.as_they_scatter = c.solution.states;
+	c.thin_as_it_scatters = c.solution.states;
 	EXPECT_FALSE(remark(""));
 	c.solution.states[1].lens_tilt.sigma = 0.1;
 	EXPECT_TRUE(remark("more photographs do not"));
-	c.as_they_scatter[1].lens_tilt.sigma = 0.08;
+	c.thin_as_it_scatters[1].lens_tilt.sigma = 0.08;
 	EXPECT_TRUE(remark("photograph the board in more poses"));
-	c.as_they_scatter.clear();
+	c.thin_as_it_scatters.clear();
 	EXPECT_TRUE(remark("photograph the board in more poses"));
 	RealLens lens;
 	lens.used = true;

@@ -307,6 +307,7 @@ struct Verdict
 struct RealLensState
 {
 	StateLens lens;                   ///< of the thin lens that stands for it near its axis (povray-patch/lens/MODEL.md, Real lenses)
+	StateLens as_it_scatters;         ///< the same with sigmas of scatter alone
 	Estimate image_distance_mm;
 	double best_focus_mm = 0;         ///< along the sensor's normal, where the whole opening's light from the principal point's pixel is sharpest; infinite or negative: at infinity, beyond
 	Point principal_point{}, principal_point_sigma{};   ///< of the exit pupil, px
@@ -315,8 +316,8 @@ struct RealLensState
 	Vec3<double> lens_centre_mm{ 0, 0, 0 };
 };
 
-/// One real lens in all states. Sigmas are the larger of those by edges and by photographs; those of the lens and of where it stands, but for tilts and aberrations, also
-/// hold how far halves of the edges put it apart.
+/// One real lens in all states. Sigmas are the larger of those by edges and by photographs; but for aberrations they also hold how far
+/// halves of the edges put it apart.
 struct RealLens
 {
 	std::string failure;              ///< why there is none; empty when there is one
@@ -359,7 +360,7 @@ struct Calibration
 	UntiltedCheck untilted_check;
 	std::vector<StateLens> blur_alone;      ///< the same before the joint refinement: blur, with the geometry held
 	GeometryAlone geometry_alone;
-	std::vector<StateLens> as_they_scatter; ///< the lenses of TiltOf, where their sigmas hold more: how far parts of the edges put a thin lens apart, or sixteen numbers a real one; else empty
+	std::vector<StateLens> thin_as_it_scatters; ///< of `solution`, where its sigmas hold how far parts of the edges put it apart; else empty
 	std::optional<RealLens> real_lens;      ///< where it was asked for, or the thin lens leaves aberrations over
 	/// Sixteen numbers and the rims, from `real_lens` on: what scenes are seen through where it is `used`. Its `held_out_thin` is that of `real_lens`, in its units.
 	std::optional<RealLens> scene_lens;
@@ -379,6 +380,8 @@ struct Calibration
 	/// What the real lens's cameras have.
 	const RealLens& LensOfScenes() const { return SceneLensIsUsed() ? *scene_lens : *real_lens; }
 	const StateLens& TiltOf(size_t s) const { return RealLensIsUsed() ? real_lens->states[s].lens : solution.states[s]; }
+	/// The same with the sigmas that more photographs make smaller.
+	const StateLens& TiltAsItScatters(size_t s) const { return RealLensIsUsed() ? real_lens->states[s].as_it_scatters : s < thin_as_it_scatters.size() ? thin_as_it_scatters[s] : solution.states[s]; }
 	Model Answer() const { return RealLensIsUsed() ? Model::LENS : solution.model; }
 
 	/// Geometry that belongs to the calibration's own solution (the paper has its own).
