@@ -15,14 +15,16 @@ namespace tiltcal
 namespace
 {
 
-const int SAMPLES = 48;   // across an edge
+const int FEWEST_SAMPLES = 48, MOST_SAMPLES = 192;   // across an edge
 const int NODES = 65;     // of a table
 
-Eigen::VectorXd Samples(double reach)
+/// So close that along the pixels' rows and columns, too, a disc of this diameter does not fall between two of them: none would know of it.
+Eigen::VectorXd Samples(double reach, double diameter)
 {
-	Eigen::VectorXd x(SAMPLES);
-	for (int i = 0; i < SAMPLES; ++i)
-		x[i] = reach * ((2 * i + 1.0) / SAMPLES - 1);
+	const int n = int(std::clamp(std::ceil(8 * reach / diameter), double(FEWEST_SAMPLES), double(MOST_SAMPLES)));
+	Eigen::VectorXd x(n);
+	for (int i = 0; i < n; ++i)
+		x[i] = reach * ((2 * i + 1.0) / n - 1);
 	return x;
 }
 
@@ -45,19 +47,19 @@ Eigen::MatrixXd Derivatives(const Eigen::VectorXd& x, double nx, double ny, doub
 
 FitResponse::FitResponse(double nx, double ny, double diameter, double reach, double own)
 {
-	const Eigen::VectorXd x = Samples(reach);
-	// A blur narrower than the samples lie apart would fall between them along the pixels' rows and columns: none would know of it.
-	const double narrowest = SoftDiameter(4 * reach / SAMPLES), fitted = SoftDiameter(diameter);
-	const double told = std::abs(fitted) < narrowest ? std::copysign(narrowest, fitted) : fitted;
+	// Discs that are narrower yet are taken to be as narrow as the samples see.
+	const double narrowest = SoftDiameter(4 * reach / MOST_SAMPLES), fitted = SoftDiameter(diameter), told = std::copysign(std::max(std::abs(fitted), narrowest), fitted);
+	const Eigen::VectorXd x = Samples(reach, std::abs(told));
+	const Eigen::Index n = x.size();
 	// What a change of the light at each sample does to the four.
-	const Eigen::MatrixXd pseudo_inverse = Derivatives(x, nx, ny, told).colPivHouseholderQr().solve(Eigen::MatrixXd::Identity(SAMPLES, SAMPLES));
+	const Eigen::MatrixXd pseudo_inverse = Derivatives(x, nx, ny, told).colPivHouseholderQr().solve(Eigen::MatrixXd::Identity(n, n));
 	const double box_a = Widened(nx, own), box_b = Widened(ny, own), most = reach + box_a + box_b;
 	first = -most;
 	step = 2 * most / (NODES - 1);
 	for (int k = 0; k < NODES; ++k)
 	{
-		Eigen::VectorXd edge(SAMPLES);
-		for (int i = 0; i < SAMPLES; ++i)
+		Eigen::VectorXd edge(n);
+		for (Eigen::Index i = 0; i < n; ++i)
 			edge[i] = PixelEdgeResponse(x[i] - (first + k * step), 0, box_a, box_b).value;
 		const Eigen::VectorXd change = pseudo_inverse * edge;
 		place.push_back(change[0]);

@@ -291,7 +291,7 @@ TEST(Photographs, PageHasAllPhotographsAndNumbers)
 	for (const Json& remark : json.at("verdict").at("remarks"))
 		EXPECT_THAT(page.text, testing::HasSubstr(remark.at("text").get<std::string>()));
 	// The answer from model to model, and what each takes.
-	for (const char* const model : { "paper", "plane", "curved", "lens (taken)", "lens, sixteen numbers (for scenes)" })
+	for (const char* const model : { "paper", "plane", "curved", "lens (taken)", "lens, fifth order (for scenes)" })
 		EXPECT_THAT(page.text, testing::HasSubstr(model));
 	for (const char* const lens : { "real_lens", "scene_lens" })
 		has(json.at(lens).at("states")[1], "lens_tilt", "_deg");

@@ -75,6 +75,20 @@ TEST(FitResponse, IsWhatTheFitOfAnEdgeDoes)
 		}
 }
 
+// Along a row of pixels only light within a radius of the pixel's ends knows how wide a disc is. A point of light at the line's place takes the disc's width away, whatever
+// that is: the fit's soft diameter falls by about as much as a disc has, some pixels at most; never by millions.
+TEST(FitResponse, NarrowBlursDoNotFallBetweenItsSamples)
+{
+	for (const double reach : { 3.0, 6.14, 20.0 })
+		for (const double diameter : { 1e-4, 0.03, 0.108, 0.25, 0.5 })
+			for (const double x : { -1.0, -0.2, 0.0, 0.3 })
+			{
+				const FitResponse response(1, 1e-6, diameter, reach, 0.05);
+				EXPECT_LT(std::abs(response.Soft(x).value), 20) << reach << ", " << diameter << ", " << x;
+				EXPECT_LT(std::abs(response.Place(x).value), 2) << reach << ", " << diameter << ", " << x;
+			}
+}
+
 TEST(FitResponse, ItsDerivativesAreItsOwn)
 {
 	const FitResponse response(0.6, 0.8, 7, 9, 0.1);
@@ -313,6 +327,10 @@ TEST(BesideRealLens, SigmasHoldHowFarTheLensesDisagree)
 	c.solution.focus_distance = { 600, 2 };
 	c.solution.states.resize(2);
 	c.solution.states[1].focus_distance = { INFINITY, 1 };
+	c.geometry.states.resize(1);
+	c.geometry.states[0].principal_point = { 900, 600 };
+	c.geometry.states[0].principal_point_sigma = { 0.3, 0.4 };
+	c.pinhole = c.geometry;
 	RealLens six;
 	six.focal_length_mm = { 44.84, 0.01 };
 	six.aperture_diameter_mm = { 18, 0.01 };
@@ -321,6 +339,7 @@ TEST(BesideRealLens, SigmasHoldHowFarTheLensesDisagree)
 	six.states.resize(2);
 	six.states[0].image_distance_mm = { 52.36, 0 };
 	six.states[0].best_focus_mm = 601.5;
+	six.states[0].principal_point = { 900.4, 600 };
 	six.states[1].best_focus_mm = -2000;
 	c.real_lens = six;
 	c.scene_lens = six;
@@ -337,6 +356,8 @@ TEST(BesideRealLens, SigmasHoldHowFarTheLensesDisagree)
 	EXPECT_NEAR(c.solution.focus_distance.sigma, 2.5, 1e-9);
 	EXPECT_EQ(c.solution.states[1].focus_distance.sigma, 1);
 	EXPECT_EQ(c.solution.focal_length.value, 44.8);
+	EXPECT_NEAR(c.geometry.states[0].principal_point_sigma[0], 0.5, 1e-12);
+	EXPECT_EQ(c.geometry.states[0].principal_point_sigma[1], 0.4);
 }
 
 // A thin lens has none: each number within 4 of its own sigmas, of ten numbers once in 1500 runs not.
