@@ -35,7 +35,7 @@ function(write_summary OUT STATES)
 		table_row(pictures ${state} "[side by side](side-by-side-${state}.png)" "[red and green line](profile-${state}.png)")
 	endforeach()
 	file(WRITE "${OUT}/summary.md" "# Photographs in, matching render out\n\n## Table 1: lens tilt, degrees\n\n${tilts}"
-		"\nOther lens, other photographs than the paper's: its figures show the size of its errors. σ holds the noise only. "
+		"\nOther lens, other photographs than the paper's: its figures show the size of its errors. σ holds the noise and how far photographs and parts of the edges differ. "
 		"This lens has field curvature; the plane that fits its best focus corresponds to 5.4 to 5.6 degrees.\n\n"
 		"## Table 2: mean brightness error, photograph against render, of 255, red / green line\n\n"
 		"${errors}"
