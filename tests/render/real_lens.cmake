@@ -6,7 +6,7 @@ cmake_minimum_required(VERSION 3.25)
 
 # What was to be reached with the demo's samples, set before it was: 1.0 of 255, of which 0.8 is the photograph's noise.
 set(LIMIT 1.0)
-# In the corners, 150 pixels along, 2: the goal too.
+# In the corners 2: the goal too. Of the mean over 150 pixels, which noise of 2 of 255 a pixel, in the dark, makes uncertain by 0.16.
 set(LIMIT_OF_CORNERS 2.0)
 set(SAMPLES 128)
 
@@ -39,12 +39,12 @@ function(compare_corners state y first last)
 	set(picture "${cameras}/${state}-${y}.exr")
 	render_boxes("${cameras}" ${state} "${picture}" ${SAMPLES} log Declare=TiltCal_Real_Lens=1 +SR${first} +ER${last} +WT1)
 	run(COMMAND "${TILTCAL}" profile "${PHOTOS}/scene/${state}.${PHOTO_SUFFIX}" "${picture}" --line 0,${y},149,${y} --line 1650,${y},1799,${y} --match gain
-		--json "${picture}.json" --out "${cameras}/${state}-${y}")
-	file(READ "${picture}.json" json)
-	foreach(side 0 1)
-		string(JSON error GET "${json}" lines ${side} mean_abs_error)
-		message("${state}, row ${y}, corner ${side}: mean error ${error} (limit ${LIMIT_OF_CORNERS})")
-		if(NOT error LESS_EQUAL LIMIT_OF_CORNERS)
+		--out "${cameras}/${state}-${y}")
+	foreach(corner 1 2)
+		execute_process(COMMAND awk -F, "NR > 1 { sum += $5 - $4; ++n } END { print sum / n; exit !(sum / n <= ${LIMIT_OF_CORNERS} && sum / n >= -${LIMIT_OF_CORNERS}) }"
+			"${cameras}/${state}-${y}/profile-${corner}.csv" OUTPUT_VARIABLE mean OUTPUT_STRIP_TRAILING_WHITESPACE RESULT_VARIABLE outside)
+		message("${state}, row ${y}, corner ${corner}: the render is brighter by ${mean} (limit ${LIMIT_OF_CORNERS})")
+		if(outside)
 			message(SEND_ERROR "too large")
 		endif()
 	endforeach()
