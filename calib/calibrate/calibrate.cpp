@@ -198,8 +198,11 @@ void Refine(const Task& task, const CalibrateOptions& o, Calibration& c)
 		c.render = c.solution;
 }
 
+/// As of rims: one of three is looked for, and what measuring leaves out of sharp edges passes for small ones.
+const double SIGNIFICANT_ABERRATIONS = 4;
+
 /// A real lens where it was asked for; else where a thin one leaves over more than noise, the choice is free, and photographs left out are
-/// predicted better by WORTH_IT, as CurvatureIsSeen wants it. With the rims that are written, which decide what of the opening an edge is seen through.
+/// predicted better by WORTH_IT, as CurvatureIsSeen wants it, and its aberrations are significant. With the rims that are written, which decide what of the opening an edge is seen through.
 void FindRealLens(const CalibrateOptions& o, Calibration& c)
 {
 	const bool asked = o.model == Model::LENS;
@@ -208,7 +211,7 @@ void FindRealLens(const CalibrateOptions& o, Calibration& c)
 	o.log.Info("solving one real lens, with aberrations, for all states");
 	RealLenses found = FindRealLens(c.task, c.geometry, c.solution, WrittenRims(c), [&](RealLens& lens)
 	{
-		lens.used = asked || (lens.held_out > 0 && lens.held_out < WORTH_IT * lens.held_out_thin);
+		lens.used = asked || (lens.aberration_sigmas > SIGNIFICANT_ABERRATIONS && lens.held_out > 0 && lens.held_out < WORTH_IT * lens.held_out_thin);
 		if (!lens.used || !o.scene_lens)
 			return false;
 		o.log.Info("solving it with the fifth order, for scenes");

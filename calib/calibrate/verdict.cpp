@@ -219,7 +219,7 @@ private:
 			return;
 		// Tilts of a thin lens were seen several sigmas off where the glass is one that no real lens could be fitted to.
 		const bool no_lens = c.real_lens && !c.real_lens->failure.empty();
-		Say(c.RealLensIsUsed() ? Grade::GOOD : no_lens ? Grade::POOR : Grade::FAIR, fmt::format("the blur fits to {:.2f} px, its noise is {:.2f} px: what limits the result are aberrations that the model {} does "
+		Say(no_lens ? Grade::FAIR : Grade::GOOD, fmt::format("the blur fits to {:.2f} px, its noise is {:.2f} px: what limits the result are aberrations that the model {} does "
 			"not have, and the sigmas hold them only as far as they scatter{}", rms, noise, NameOf(c.Answer()), no_lens ? ". No real lens could be fitted: photograph at a smaller aperture" : ""));
 	}
 

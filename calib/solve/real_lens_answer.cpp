@@ -129,11 +129,6 @@ bool Divides(int third, int fifth)
 	return divides;
 }
 
-}
-
-namespace
-{
-
 /// The steepest slope, before the lens, of the light of any state's corners, through the middle of its pupil.
 double SlopeOfCorners(const Task& task, const RealLensNumbers& x)
 {
@@ -161,6 +156,22 @@ std::optional<int> LeastSignificant(const RealLensFit::Judged& judged, const Rea
 				term = k;
 			}
 	return term;
+}
+
+/// Holds the fifth-order numbers that are not significant at 0, one after the other, each time fitted anew. None: no convergence, or singular.
+std::optional<RealLensFit::Judged> KeepSignificant(RealLensFit& fit, std::vector<RealLensEdge>& edges, RealLensNumbers& x)
+{
+	for (;;)
+	{
+		std::optional<RealLensFit::Judged> judged = fit.Judge(edges, x);
+		const std::optional<int> idle = judged ? LeastSignificant(*judged, x) : std::nullopt;
+		if (!idle)
+			return judged;
+		x.free[size_t(*idle)] = false;
+		x.c[size_t(*idle)] = 0;
+		if (!GoRounds(fit, x, edges, 1))
+			return std::nullopt;
+	}
 }
 
 }
@@ -217,18 +228,7 @@ std::optional<RealLensAnswer> SolveSceneLens(const Task& task, const Geometry& g
 	std::vector<RealLensEdge> edges = fit.EdgesAbout(x);
 	if (!GoRounds(fit, x, edges, 5))
 		return std::nullopt;
-	std::optional<RealLensFit::Judged> judged = fit.Judge(edges, x);
-	while (judged)
-	{
-		const std::optional<int> idle = LeastSignificant(*judged, x);
-		if (!idle)
-			break;
-		x.free[size_t(*idle)] = false;
-		x.c[size_t(*idle)] = 0;
-		if (!GoRounds(fit, x, edges, 1))
-			return std::nullopt;
-		judged = fit.Judge(edges, x);
-	}
+	const std::optional<RealLensFit::Judged> judged = KeepSignificant(fit, edges, x);
 	if (!judged)
 		return std::nullopt;
 	RealLensAnswer answer = AnswerOf(fit, edges, geometry, x, *judged);
