@@ -198,11 +198,12 @@ void Refine(const Task& task, const CalibrateOptions& o, Calibration& c)
 		c.render = c.solution;
 }
 
-/// As of rims: one of three is looked for, and what measuring leaves out of sharp edges passes for small ones.
-const double SIGNIFICANT_ABERRATIONS = 4;
+/// As WORTH_IT. What a thin lens leaves out must be a third of the whole of what is left over, 0.95 = sqrt(1 - 1/9): with less a lens with a dozen more numbers finds
+/// what measuring leaves out of sharp edges, of boards too that a thin lens has photographed.
+const double REAL_LENS_IS_WORTH_IT = 0.95;
 
 /// A real lens where it was asked for; else where a thin one leaves over more than noise, the choice is free, and photographs left out are
-/// predicted better by WORTH_IT, as CurvatureIsSeen wants it, and its aberrations are significant. With the rims that are written, which decide what of the opening an edge is seen through.
+/// predicted better by REAL_LENS_IS_WORTH_IT. With the rims that are written, which decide what of the opening an edge is seen through.
 void FindRealLens(const CalibrateOptions& o, Calibration& c)
 {
 	const bool asked = o.model == Model::LENS;
@@ -211,7 +212,7 @@ void FindRealLens(const CalibrateOptions& o, Calibration& c)
 	o.log.Info("solving one real lens, with aberrations, for all states");
 	RealLenses found = FindRealLens(c.task, c.geometry, c.solution, WrittenRims(c), [&](RealLens& lens)
 	{
-		lens.used = asked || (lens.aberration_sigmas > SIGNIFICANT_ABERRATIONS && lens.held_out > 0 && lens.held_out < WORTH_IT * lens.held_out_thin);
+		lens.used = asked || (lens.held_out > 0 && lens.held_out < REAL_LENS_IS_WORTH_IT * lens.held_out_thin);
 		if (!lens.used || !o.scene_lens)
 			return false;
 		o.log.Info("solving it with the fifth order, for scenes");

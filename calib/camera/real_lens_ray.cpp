@@ -14,7 +14,8 @@ CameraRay MeanRayThroughLens(const StateCamera& camera, const Point& pixel)
 	const Vec3<double> n = camera.LensNormal();
 	const double state[real_lens::STATE_SIZE] = { n.x / n.z, n.y / n.z, camera.ImageDistancePx() * lens.pupil_magnification, camera.principal_point[0], camera.principal_point[1] };
 	const double of_lens[real_lens::LENS_SIZE] = { lens.power * camera.pitch_mm, lens.pupil_magnification, 1, 0 };
-	const MountedLens<double> mounted(state, of_lens, lens.aberrations.c, lens.aberrations.radius, camera.pitch_mm, pixel[0], pixel[1]);
+	MountedLens<double> mounted(state, of_lens, lens.aberrations.c, lens.aberrations.radius, camera.pitch_mm, pixel[0], pixel[1]);
+	mounted.lens.etendue = lens.etendue;
 	const double radius = 0.5 * camera.aperture_diameter_mm * lens.pupil_magnification;
 	std::vector<tilt_lens::Rim> rims;
 	for (const TwoNumbers& rim : camera.rims_mm)

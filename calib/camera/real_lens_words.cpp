@@ -23,7 +23,7 @@ const double PER_MILLE = 1000;
 
 tilt_lens::RealLens<double> RealLensOf(const CameraAberrations& a, double unit_mm)
 {
-	tilt_lens::RealLens<double> lens{ a.pupil_magnification, unit_mm / a.focal_length_mm, { {}, a.radius_mm / unit_mm } };
+	tilt_lens::RealLens<double> lens{ a.pupil_magnification, unit_mm / a.focal_length_mm, { {}, a.radius_mm / unit_mm }, a.etendue };
 	for (size_t k = 0; k < a.mm.size(); ++k)
 		lens.aberrations.c[k] = a.mm[k] / unit_mm;
 	return lens;
@@ -38,8 +38,8 @@ int TermsOf(const tilt_lens::RealLens<double>& lens)
 std::string RealLensWords(const tilt_lens::RealLens<double>& lens, int terms)
 {
 	const double f = 1 / lens.power;
-	std::string out = fmt::format("\t\tpupil_magnification {:.10g}\n\t\taberrations {{\n\t\t\tfocal_length {:.10g}  f_stop {:.10g}\n", lens.pupil_magnification, f,
-		f / (2 * lens.aberrations.radius));
+	std::string out = fmt::format("\t\tpupil_magnification {:.10g}\n\t\taberrations {{\n\t\t\tfocal_length {:.10g}  f_stop {:.10g}{}\n", lens.pupil_magnification, f,
+		f / (2 * lens.aberrations.radius), lens.etendue ? fmt::format("  {}", tilt_lens::EtendueWord) : "");
 	const auto per_mille = [&](int k) { return PER_MILLE * lens.aberrations.c[k] / f + 0.; };
 	for (int k = 0; k < ThirdOrderTerms; ++k)
 		out += fmt::format("\t\t\t{} {:.10g}\n", tilt_lens::AberrationWords[k], per_mille(k));

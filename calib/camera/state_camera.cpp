@@ -208,9 +208,15 @@ StateCamera ThinCamera(const Node& top, const std::string& name)
 }
 
 /// `lens`: real_lens or scene_lens, which may be left out or have failed.
+/// False where it is not there.
+bool IsTrue(const Node& of, const char* flag)
+{
+	return of.json->contains(flag) && of[flag].Flag();
+}
+
 bool IsUsed(const Node& top, const char* lens)
 {
-	return top.json->contains(lens) && (*top.json)[lens].contains("used") && top[lens]["used"].Flag();
+	return top.json->contains(lens) && IsTrue(top[lens], "used");
 }
 
 }
@@ -245,6 +251,7 @@ std::optional<StateCamera> ReadRealLensCamera(const std::string& file, const std
 			continue;
 		CameraAberrations a{ lens["pupil_magnification"].Positive(), lens["focal_length_mm"].Positive(), 0, {} };
 		a.radius_mm = 0.5 * a.focal_length_mm / lens["f_stop_of_aberrations"].Positive();
+		a.etendue = IsTrue(lens, "etendue");
 		const double unit = a.focal_length_mm / 1000;
 		for (size_t k = 0; k < tilt_lens::ThirdOrderTerms; ++k)
 			a.mm[k] = lens["aberrations"][tilt_lens::AberrationWords[k]].Number() * unit;

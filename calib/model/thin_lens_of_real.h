@@ -6,8 +6,9 @@
 namespace tiltcal
 {
 
-/// One standard deviation of a pupil magnification that nobody told, about 1: double Gauss 0.9 to 1.1, telephoto lenses down to 0.5, retrofocus ones up to 2.
-const double PUPIL_MAGNIFICATION_SIGMA = 0.3;
+/// One standard deviation of the logarithm of a pupil magnification that nobody told, about 1: double Gauss 0.9 to 1.1, telephoto lenses down to 0.5, retrofocus
+/// ones up to 2, which are two of it.
+const double PUPIL_MAGNIFICATION_SIGMA = 0.35;
 
 /// |q + e_z / w|, 1/mm, of the thin lens that does near its axis what one of the power 1/f and the pupil magnification m does
 /// (povray-patch/lens/MODEL.md, Real lenses). normal_z: of the unit lens normal, along the sensor's; w_mm: a thin lens's, the exit pupil

@@ -5,6 +5,7 @@
 #include "solve/jet_value.h"
 #include "solve/least_squares.h"
 
+#include <Eigen/Dense>
 #include <ceres/autodiff_cost_function.h>
 #include <ceres/manifold.h>
 #include <fmt/format.h>
@@ -45,10 +46,11 @@ std::array<T, 2> OnSensor(const GlassFrame& frame, const T& slope_x, const T& sl
 /// The linear part's numbers as the fit has them: focal length, magnification, heights of the pupils.
 enum { FOCAL_LENGTH, MAGNIFICATION, ENTRANCE_PUPIL, EXIT_PUPIL, LINEAR_NUMBERS };
 
+/// `glass`: etendue is conserved, as a thin lens does not.
 template<typename T>
-RealLens<T> MakeLens(const T* linear, const T* c, const T& radius)
+RealLens<T> MakeLens(const T* linear, const T* c, const T& radius, bool glass)
 {
-	RealLens<T> lens{ linear[MAGNIFICATION], T(1) / linear[FOCAL_LENGTH], {} };
+	RealLens<T> lens{ linear[MAGNIFICATION], T(1) / linear[FOCAL_LENGTH], {}, glass };
 	std::copy(c, c + AberrationTerms, lens.aberrations.c);
 	lens.aberrations.radius = radius;
 	return lens;
@@ -88,19 +90,60 @@ bool UnaberrateOnce(const Aberrations<T>& a, const PupilRay<T>& aberrated, Pupil
 	return true;
 }
 
+/// How an object-side ray that is `change` off arrives by the linear part: right and up on the sensor.
+std::array<double, 2> OnSensorByLinearPart(const Paraxial& p, const GlassFrame& frame, const TracedRay& ray, const PupilRay<double>& change)
+{
+	const PupilRay<double> seen = tilt_lens::BehindLinearLens(p.pupil_magnification, 1 / p.focal_length, change);
+	const double depth = p.exit_pupil - frame.ToGlass(ray.sensor_point).z;
+	return OnSensor(frame, ray.image.direction.x / ray.image.direction.z, ray.image.direction.y / ray.image.direction.z, seen.x - depth * seen.slope_x, seen.y - depth * seen.slope_y);
+}
+
+/// Where the fit starts: the map states the object-side ray, in which the numbers are linear; what they leave of it is seen through the linear part. From
+/// zeros the other direction's rays may fold on their way to the answer, and the fit stops there.
+void StartFromObjectSide(const std::vector<TracedRay>& rays, const std::vector<GlassFrame>& frames, const Paraxial& p, int terms, double* c)
+{
+	Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(terms, terms);
+	Eigen::VectorXd right = Eigen::VectorXd::Zero(terms);
+	const Aberrations<double> unit{ {}, p.entrance_radius };
+	for (const TracedRay& ray : rays)
+	{
+		const GlassFrame& frame = frames[ray.state];
+		const PupilRay<double> linear = tilt_lens::BeforeLinearLens(p.pupil_magnification, 1 / p.focal_length, AtHeight(ray.image, p.exit_pupil));
+		PupilRay<double> truth;
+		if (!tilt_lens::UprightPupil(p.pupil_magnification, 1 / p.focal_length, AtHeight(ray.object, p.entrance_pupil), truth))
+			continue;
+		PupilRay<double> by_c[AberrationTerms];
+		tilt_lens::AberrateByCoefficients(unit, linear, by_c);
+		const std::array<double, 2> off = OnSensorByLinearPart(p, frame, ray, { truth.x - linear.x, truth.y - linear.y, truth.slope_x - linear.slope_x, truth.slope_y - linear.slope_y });
+		Eigen::MatrixXd by(2, terms);
+		for (int k = 0; k < terms; ++k)
+		{
+			const std::array<double, 2> moved = OnSensorByLinearPart(p, frame, ray, by_c[k]);
+			by.col(k) << moved[0], moved[1];
+		}
+		squares += by.transpose() * by;
+		right += by.transpose() * Eigen::Vector2d(off[0], off[1]);
+	}
+	Eigen::Map<Eigen::VectorXd>(c, terms) = squares.completeOrthogonalDecomposition().solve(right);
+}
+
 /// Misses, with derivatives.
 struct LandingError
 {
 	const TracedRay& ray;
 	const GlassFrame& frame;
 	double radius, weight;
+	bool glass;
 
 	template<typename T>
 	bool operator()(const T* linear, const T* c, T* residual) const
 	{
-		const RealLens<T> lens = MakeLens(linear, c, T(radius));
-		PupilRay<T> before;
-		if (!UnaberrateOnce(lens.aberrations, AtHeight(ray.object, linear[ENTRANCE_PUPIL]), before))
+		const RealLens<T> lens = MakeLens(linear, c, T(radius), glass);
+		PupilRay<T> before, object = AtHeight(ray.object, linear[ENTRANCE_PUPIL]);
+		const PupilRay<T> outside = object;
+		if (glass && !tilt_lens::UprightPupil(lens.pupil_magnification, lens.power, outside, object))
+			return false;
+		if (!UnaberrateOnce(lens.aberrations, object, before))
 			return false;
 		const PupilRay<T> seen = tilt_lens::BehindLinearLens(lens.pupil_magnification, lens.power, before);
 		const PupilRay<T> truth = AtHeight(ray.image, linear[EXIT_PUPIL]);
@@ -172,30 +215,38 @@ FittedLens FitLens(const std::vector<TracedRay>& rays, const std::vector<GlassFr
 	if (rays.size() < 100)
 		throw Refused(fmt::format("only {} rays come through the glass: too few to learn its aberrations from", rays.size()));
 	double linear[LINEAR_NUMBERS] = { p.focal_length, p.pupil_magnification, p.entrance_pupil, p.exit_pupil }, c[AberrationTerms] = {};
+	if (terms > 0)
+		StartFromObjectSide(rays, frames, p, terms, c);
+	FittedLens fit = ParaxialLens(p);
+	std::copy(c, c + AberrationTerms, fit.lens.aberrations.c);
+	fit.lens.etendue = terms > 0;
+	MeasureMisses(rays, frames, fit);
 	ceres::Problem problem;
 	for (const TracedRay& ray : rays)
 		problem.AddResidualBlock(new ceres::AutoDiffCostFunction<LandingError, 2, LINEAR_NUMBERS, AberrationTerms>(
-			new LandingError{ ray, frames[ray.state], p.entrance_radius, 1e3 / std::sqrt(double(rays.size())) }), nullptr, linear, c);
+			new LandingError{ ray, frames[ray.state], p.entrance_radius, 1e3 / std::sqrt(double(rays.size())), terms > 0 }), nullptr, linear, c);
 	if (terms == 0)
 		problem.SetParameterBlockConstant(c);
 	else if (terms < AberrationTerms)
 		problem.SetManifold(c, KeptFrom(AberrationTerms, terms));
 	if (part == LinearPart::PARAXIAL)
 		problem.SetParameterBlockConstant(linear);
+	else
+		problem.SetManifold(linear, new ceres::SubsetManifold(LINEAR_NUMBERS, { MAGNIFICATION, ENTRANCE_PUPIL }));
 	if (terms > 0 || part == LinearPart::FITTED)
 	{
 		LeastSquares how;
 		how.linear_solver = ceres::DENSE_NORMAL_CHOLESKY;
 		how.function_tolerance = 1e-12;
+		how.iterations = 300;
 		how.threads = AllThreads();
 		std::string why;
 		if (!SolveLeastSquares(how, problem, &why))
 			throw Refused("the aberrations' fit did not converge: " + why);
 	}
-	FittedLens fit;
 	fit.entrance_pupil = linear[ENTRANCE_PUPIL];
 	fit.exit_pupil = linear[EXIT_PUPIL];
-	fit.lens = MakeLens(linear, c, p.entrance_radius);
+	fit.lens = MakeLens(linear, c, p.entrance_radius, terms > 0);
 	MeasureMisses(rays, frames, fit);
 	return fit;
 }

@@ -27,7 +27,7 @@ struct FittedLens
 enum class LinearPart
 {
 	PARAXIAL,     ///< nothing: focal length and pupils are those near the axis
-	FITTED        ///< focal length, pupil magnification and the places of both pupils, which take over a part of what is left out
+	FITTED        ///< focal length and the place of the exit pupil too, which take over a part of what is left out
 };
 
 /// Without aberrations.

@@ -82,6 +82,7 @@ Json RealLensJson(const Calibration& c, const RealLens& lens)
 	Put(json, "pupil_magnification", "", lens.pupil_magnification);
 	Put(json, "psf_floor_squared", "_px2", lens.psf_floor_squared);
 	json["f_stop_of_aberrations"] = 0.5 * lens.focal_length_mm.value / lens.radius_mm;
+	json["etendue"] = true;
 	for (size_t k = 0; k < tilt_lens::ThirdOrderTerms; ++k)
 		Put(json["aberrations"], tilt_lens::AberrationWords[k], "", lens.PerMille(k));
 	for (size_t k = tilt_lens::ThirdOrderTerms; lens.fifth_order && k < lens.aberrations_mm.size(); ++k)

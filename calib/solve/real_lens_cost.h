@@ -67,6 +67,7 @@ struct MountedLens
 		using namespace real_lens;
 		lens.pupil_magnification = of_lens[MAGNIFICATION];
 		lens.power = of_lens[POWER] / T(pitch_mm);
+		lens.etendue = true;
 		for (int k = 0; k < tilt_lens::AberrationTerms; ++k)
 			lens.aberrations.c[k] = c[k];
 		lens.aberrations.radius = T(r);

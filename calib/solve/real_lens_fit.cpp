@@ -116,6 +116,19 @@ struct Likely
 	}
 };
 
+struct LikelyMagnification
+{
+	template<typename T>
+	bool operator()(const T* lens, T* residual) const
+	{
+		using std::log;
+		if (!(lens[MAGNIFICATION] > T(0)))
+			return false;
+		residual[0] = log(lens[MAGNIFICATION]) / T(PUPIL_MAGNIFICATION_SIGMA);
+		return true;
+	}
+};
+
 /// The rims start from where a thin lens has them, which is right but for a factor of two or so.
 const double SIGMA_OF_LOG_RIM = 0.7;
 
@@ -140,7 +153,7 @@ void AddWhatIsLikely(const RealLensFit& fit, RealLensNumbers& x, ceres::Problem&
 		if (x.free[size_t(k)] && fit.likely_c[size_t(k)] > 0)
 			AddLikely<tilt_lens::AberrationTerms>(x.c.data(), k, 0, fit.likely_c[size_t(k)], problem);
 	if (x.magnification_free)
-		AddLikely<LENS_SIZE>(x.lens.data(), MAGNIFICATION, 1, PUPIL_MAGNIFICATION_SIGMA, problem);
+		problem.AddResidualBlock(new ceres::AutoDiffCostFunction<LikelyMagnification, 1, LENS_SIZE>(new LikelyMagnification), nullptr, x.lens.data());
 	for (int k = 0; x.rims_free && k < RIM_SIZE * int(x.sides.size()); ++k)
 		AddLikely<RIMS_SIZE>(x.rims.data(), k, fit.rims_about[size_t(k)], SIGMA_OF_LOG_RIM, problem);
 }

@@ -194,11 +194,6 @@ RealLens Described(const Task& task, const RealLensAnswer& answer, const std::ve
 		found.aberrations_mm[k] = { x.c[k], sigma[LENS_SIZE + k] };
 	for (size_t s = 0; s < task.states.size(); ++s)
 		found.states.push_back(StateOf(answer, s, task.states[s].photos.size(), task.pitch_mm, sigma));
-	for (const int k : { tilt_lens::Spherical, tilt_lens::Coma, tilt_lens::Astigmatism })
-	{
-		const double variance = answer.judged.Variance(LENS_SIZE + k) + answer.judged.variance_by_parts[LENS_SIZE + k];
-		found.aberration_sigmas = std::max(found.aberration_sigmas, std::abs(x.c[size_t(k)]) / std::sqrt(variance));
-	}
 	found.opening_on_axis_mm = OpeningOnAxis(found);
 	WidenHiddenStop(found);
 	for (const std::array<double, 2>& place_and_blur : answer.residuals)

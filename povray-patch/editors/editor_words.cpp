@@ -35,6 +35,7 @@ void AddWordsAmong(const std::string& values, std::set<std::string>& words)
 std::string Words(const std::string& separator)
 {
 	std::set<std::string> words(std::begin(tilt_lens::AberrationWords), std::end(tilt_lens::AberrationWords));
+	words.insert(tilt_lens::EtendueWord);
 	for(const tilt_lens::WordRow& row : tilt_lens::Words)
 	{
 		words.insert(row.word);

@@ -26,7 +26,9 @@ template<bool FifthOrder>
 inline void AberrateRay(const TiltLens& lens, LensRay& ray)
 {
 	const double depth = Dot(ray.v, lens.normal);       // of R too
-	const PupilRay<double> there = Aberrate<FifthOrder>(lens.aberrations, InLensAxes(lens, ray, depth));
+	PupilRay<double> there = Aberrate<FifthOrder>(lens.aberrations, InLensAxes(lens, ray, depth));
+	if(lens.etendue_power != 0.0)
+		there = ObliquePupil(lens.pupil_magnification, lens.etendue_power, there);
 	ray.S = there.x * lens.basis_x + there.y * lens.basis_y;
 	ray.R = depth * (there.slope_x * lens.basis_x + (there.slope_y * lens.basis_y + lens.normal));
 	ray.v = ray.R;
@@ -91,6 +93,12 @@ void TakeAberrations(const LensSpec& spec, TiltLens& lens)
 		lens.aberrates |= spec.aberrations[i] != 0.0;
 		lens.aberrates_fifth |= i >= ThirdOrderTerms && spec.aberrations[i] != 0.0;
 	}
+	if(spec.aberrations_etendue)
+	{
+		const double m = lens.pupil_magnification, cosine = Dot(lens.normal, lens.axis);
+		lens.aberrates = true;
+		lens.etendue_power = (lens.power + (m - 1.0) * cosine / lens.image_distance) / m;
+	}
 	lens.aberrations.radius = f_stop ? 0.5 * unit / f_stop.value : 0.5 * lens.aperture_diameter;
 	if(lens.aberrates && !(lens.aberrations.radius > 0.0 && IsFinite(lens.aberrations.radius)))
 		Refuse("tilt_lens: %s hold for an opening: give f_stop among them, or the camera an aperture_diameter or f_stop.", word.c_str());
@@ -140,13 +148,25 @@ double InverseFocusAlongLensAxis(const TiltLens& lens, const Vec3d& v)
 	// With S0 moved by r dq, b0 moves by -kappa r dq: how S and b follow, and where S + Z b then stays.
 	const double r = lens.aberrations.radius;
 	double J[4][4], A[2][2], B[2][2];
-	AberrationJacobian(lens.aberrations, InLensAxes(lens, ray, depth), J);
+	const PupilRay<double> linear = InLensAxes(lens, ray, depth);
+	AberrationJacobian(lens.aberrations, linear, J);
 	for(int i = 0; i < 2; i++)
 		for(int j = 0; j < 2; j++)
 		{
 			A[i][j] = J[i][j] - kappa * r * J[i][2 + j];
 			B[i][j] = J[2 + i][j] - kappa * r * J[2 + i][2 + j];
 		}
+	if(lens.etendue_power != 0.0)
+	{
+		const PupilRay<double> aberrated = Aberrate<true>(lens.aberrations, linear);
+		for(int j = 0; j < 2; j++)
+		{
+			const PupilRay<double> change = { r * A[0][j], r * A[1][j], B[0][j], B[1][j] };
+			const Across<double> moved = ChangeOfObliquePupil(lens.pupil_magnification, lens.etendue_power, aberrated, 0.0, 0.0, change);
+			A[0][j] = moved.x / r;
+			A[1][j] = moved.y / r;
+		}
+	}
 	const double determinant = A[0][0] * A[1][1] - A[0][1] * A[1][0];
 	const double trace = B[0][0] * A[1][1] - B[0][1] * A[1][0] + B[1][1] * A[0][0] - B[1][0] * A[0][1];
 	return determinant != 0.0 ? -0.5 * trace / (determinant * r) : kappa;

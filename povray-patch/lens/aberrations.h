@@ -13,6 +13,7 @@
 //   invariants      q = S0/r,  P = b0.b0,  R = b0.q,  Q = q.q
 //   the rest        g = sum of c_ijk P^i R^j Q^k, of degree 2 (six c) and 3 (ten more)
 //                   S = S0 - (2 b0 g_P + q g_R),  b = b0 + (b0 g_R + 2 q g_Q)/r
+//   etendue         S as lens/oblique_pupil.h has it of that, where the numbers are of glass
 // The c are lengths, r is the radius of the pupil at which they are stated: one that is stopped down
 // keeps both, and its rays have |q| < 1. Because the shift is a gradient, the map is symplectic in
 // (q, b) but for terms of the order of g squared.
@@ -24,6 +25,8 @@
 
 #include <cmath>
 #include <utility>
+
+#include "lens/oblique_pupil.h"
 
 namespace tilt_lens
 {
@@ -64,14 +67,7 @@ struct RealLens
 	T pupil_magnification;      ///< m > 0, exit pupil over entrance pupil
 	T power;                    ///< 1/f of the glass
 	Aberrations<T> aberrations;
-};
-
-/// A ray on either side: its point in the plane of that side's pupil, and its slopes there.
-template<typename T>
-struct PupilRay
-{
-	T x, y;             ///< S or S'
-	T slope_x, slope_y; ///< b or b'
+	bool etendue = false;       ///< conserved, as glass does (lens/oblique_pupil.h)
 };
 
 // ---------------------------------------------------------------------------
@@ -179,7 +175,8 @@ inline PupilRay<T> BehindLinearLens(const T& pupil_magnification, const T& power
 template<typename T>
 inline PupilRay<T> ObjectSideRay(const RealLens<T>& lens, const PupilRay<T>& image)
 {
-	return Aberrate<true>(lens.aberrations, BeforeLinearLens(lens.pupil_magnification, lens.power, image));
+	const PupilRay<T> aberrated = Aberrate<true>(lens.aberrations, BeforeLinearLens(lens.pupil_magnification, lens.power, image));
+	return lens.etendue ? ObliquePupil(lens.pupil_magnification, lens.power, aberrated) : aberrated;
 }
 
 /// The image-side ray from the point (x, y) of the exit pupil to the point (X, Y) a depth t > 0 behind its plane.
@@ -346,8 +343,10 @@ inline bool Unaberrate(const Aberrations<T>& a, const PupilRay<T>& aberrated, Pu
 template<typename T>
 inline bool ImageSideRay(const RealLens<T>& lens, const PupilRay<T>& object, PupilRay<T>& image)
 {
-	PupilRay<T> linear;
-	const bool found = Unaberrate(lens.aberrations, object, linear);
+	PupilRay<T> aberrated = object, linear = object;
+	if(lens.etendue && !UprightPupil(lens.pupil_magnification, lens.power, object, aberrated))
+		return false;
+	const bool found = Unaberrate(lens.aberrations, aberrated, linear);
 	image = BehindLinearLens(lens.pupil_magnification, lens.power, linear);
 	return found;
 }

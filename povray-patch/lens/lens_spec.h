@@ -72,6 +72,7 @@ struct LensSpec
 	bool aberrations_given = false;
 	double aberrations[AberrationTerms] = {};   ///< in thousandths of the focal length
 	Given<double> aberrations_focal_length, aberrations_f_stop; ///< for which they hold
+	bool aberrations_etendue = false;           ///< etendue is conserved
 	bool bokeh = false;                 ///< POV-Ray's word outside the block: the opening is the pigment's square
 
 	/// Let pixels learn from their neighbours.
@@ -136,6 +137,7 @@ struct TiltLens
 	double lateral[Wavelengths] = {}, axial[Wavelengths] = {};
 	double pupil_magnification = 1.0;
 	Aberrations<double> aberrations = {};   ///< in world units
+	double etendue_power = 0.0;             ///< of the glass, where etendue is conserved; else 0
 	bool aberrates = false, aberrates_fifth = false;
 	double reach = 1.0;                 ///< rays leave from points up to so many radii of the opening from its centre
 

@@ -59,6 +59,8 @@ std::string AberrationValues(const LensSpec& spec)
 		text += " focal_length " + Number(spec.aberrations_focal_length.value);
 	if(spec.aberrations_f_stop)
 		text += " f_stop " + Number(spec.aberrations_f_stop.value);
+	if(spec.aberrations_etendue)
+		text += " " + std::string(EtendueWord);
 	for(int i = 0; i < ThirdOrderTerms; i++)
 		if(spec.aberrations[i] != 0.0)
 			text += " " + std::string(AberrationWords[i]) + " " + Number(spec.aberrations[i]);

@@ -68,6 +68,7 @@ const WordRow Words[WordCount] =
 const char* const AberrationWords[ThirdOrderTerms + 1] =
 	{ "spherical", "coma", "astigmatism", "curvature", "distortion", "pupil", "fifth_order" };
 const char* const FifthOrderWord = AberrationWords[ThirdOrderTerms];
+const char* const EtendueWord = "etendue";
 
 std::string WordRow::Name() const
 {
@@ -94,7 +95,8 @@ const char* const WordsAround[] = {
 const struct { const char *option, *word; } Options[] = {
 	{ "natural", "vignetting" }, { "optical", "vignetting" }, { "lateral", "chromatic" }, { "axial", "chromatic" },
 	{ "rotation", "blades" }, { "curvature", "blades" }, { "focus", "show" }, { "spherical", "aberrations" }, { "coma", "aberrations" },
-	{ "astigmatism", "aberrations" }, { "pupil", "aberrations" }, { "fifth_order", "aberrations" } };
+	{ "astigmatism", "aberrations" }, { "pupil", "aberrations" }, { "fifth_order", "aberrations" },
+	{ EtendueWord, "aberrations" } };
 
 /// Letters to leave out, add, change or swap with the next, to make one of the other.
 size_t Edits(const std::string& a, const std::string& b)
@@ -180,6 +182,8 @@ std::string AdviceOnAberrations(const std::string& typed)
 		nearest.Consider(word);
 		list += ", " + std::string(word);
 	}
+	nearest.Consider(EtendueWord);
+	list += ", " + std::string(EtendueWord);
 	const std::string unknown = "Unknown word '" + typed + "' in aberrations";
 	if(!nearest.best.empty())
 		return unknown + "; did you mean '" + nearest.best + "'?";

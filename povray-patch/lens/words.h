@@ -65,6 +65,8 @@ std::string ListOfWords();
 /// The words of the block `aberrations`: those of its terms, in their order, with the one for the
 /// fifth order last.
 extern const char* const AberrationWords[ThirdOrderTerms + 1];
+/// Without a value: etendue is conserved (lens/oblique_pupil.h).
+extern const char* const EtendueWord;
 extern const char* const FifthOrderWord;
 
 /// What to do about a word that the block `aberrations` does not know.

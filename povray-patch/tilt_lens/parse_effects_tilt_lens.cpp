@@ -132,7 +132,7 @@ void Parser::Parse_Tilt_Lens_Chromatic(LensSpec& spec)
 		Error("tilt_lens: chromatic takes lateral, axial or both, in this order, each with a value for red and one for blue.");
 }
 
-/// aberrations { [focal_length F] [f_stop N] [spherical A] .. [fifth_order { A1, .., A10 }] }
+/// aberrations { [focal_length F] [f_stop N] [etendue] [spherical A] .. [fifth_order { A1, .., A10 }] }
 void Parser::Parse_Tilt_Lens_Aberrations(LensSpec& spec)
 {
 	bool known[tilt_lens::ThirdOrderTerms + 1] = { false };
@@ -156,6 +156,13 @@ void Parser::Parse_Tilt_Lens_Aberrations(LensSpec& spec)
 			if (number->given)
 				Error("tilt_lens: %s of aberrations is given twice.", word.c_str());
 			*number = Parse_Float();
+			continue;
+		}
+		if (word == tilt_lens::EtendueWord)
+		{
+			if (spec.aberrations_etendue)
+				Error("tilt_lens: %s of aberrations is given twice.", word.c_str());
+			spec.aberrations_etendue = true;
 			continue;
 		}
 		int i = 0;

@@ -59,6 +59,7 @@ std::vector<Camera> Cameras()
 		{"`chromatic lateral` and `axial`, three rays", "chromatic lateral 0.001, -0.001 axial 0.001, -0.001", "",
 			{"MagnifyColour", Disc, Plane, "FocusColour", Leave}},
 		{"`aberrations`, the six of the third order", "aberrations { " + SixNumbers + " }", "", {Disc, Plane, Leave, "AberrateThirdOrder"}},
+		{"`aberrations`, the same with `etendue`", "aberrations { etendue " + SixNumbers + " }", "", {Disc, Plane, Leave, "AberrateThirdOrder"}},
 		{"`aberrations` with `fifth_order`", "aberrations { " + SixNumbers + " fifth_order { 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1 } }", "",
 			{Disc, Plane, Leave, "AberrateFifthOrder"}},
 		{"all of them, three rays", "shift <0.1, 0.2> field_curvature 0.01 distortion -0.1, 0.02 blades 5 curvature 0.5 vignetting natural optical 9, 1 "

@@ -112,14 +112,14 @@ TEST(BetweenParts, TheThinLensOfAnyPupilMagnificationHasTheRealLensesFocalLength
 	}
 }
 
-// To first order an unknown pupil magnification makes f unknown by f (f/U) 0.3; the second order, even, cancels, the third is below (0.3)^2 of it.
+// To first order an unknown pupil magnification makes f unknown by f (f/U) of its sigma; the second order, even, cancels, the third is below the square of that of it.
 TEST(BetweenParts, SigmaOfTheFocalLengthHoldsAnUnknownPupilMagnification)
 {
 	Solution s = Told();
 	s.focus_distance.value = 1 / (1 / s.focal_length.value - 1 / s.w_mm.value);
 	s.states.clear();
-	const double first_order = 0.3 * s.focal_length.value * s.focal_length.value / s.focus_distance.value;
+	const double first_order = PUPIL_MAGNIFICATION_SIGMA * s.focal_length.value * s.focal_length.value / s.focus_distance.value;
 	WidenByPupils(s);
-	EXPECT_NEAR(s.focal_length.sigma, std::hypot(0.01, first_order), 0.1 * first_order);
+	EXPECT_NEAR(s.focal_length.sigma, std::hypot(0.01, first_order), PUPIL_MAGNIFICATION_SIGMA * PUPIL_MAGNIFICATION_SIGMA * first_order);
 	EXPECT_EQ(s.w_mm.sigma, 0.03);
 }

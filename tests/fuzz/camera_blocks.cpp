@@ -174,13 +174,15 @@ class Writer
 		// Words of the block, numbers with and without commas where there are several.
 		void Aberrations()
 		{
-			static const char* const words[] = { "focal_length", "f_stop", "spherical", "coma", "astigmatism", "curvature", "distortion", "pupil", "fifth_order" };
+			static const char* const words[] = { "focal_length", "f_stop", "spherical", "coma", "astigmatism", "curvature", "distortion", "pupil", "fifth_order", "etendue" };
 			Say("aberrations");
 			Say("{");
 			for (int i = random.Below(6); i > 0; i--)
 			{
-				const int word = random.Below(9);
+				const int word = random.Below(10);
 				Say(words[word]);
+				if (word == 9)
+					continue;
 				if (word < 8)
 					Number(word < 2 ? 0.5 : -5, 5);
 				else

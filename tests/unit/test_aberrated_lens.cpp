@@ -77,15 +77,17 @@ void ExpectNear(const Vec3d& a, const Vec3d& b, double limit)
 TEST(AberratedLens, IsTheMapBetweenItsPupils)
 {
 	for(double m : { 0.8, 1.0, 1.25 })
+	for(bool etendue : { false, true })
 	{
 		LensSpec spec = Aberrated();
+		spec.aberrations_etendue = etendue;
 		spec.pupil_magnification = m;
 		const TiltLens lens = Resolved(spec);
 		ASSERT_TRUE(lens.aberrates);
 		EXPECT_EQ(lens.aberrations.radius, 0.125);
 		EXPECT_NEAR(lens.aberrations.c[Coma], 2e-3 / lens.power, 1e-18) << "thousandths of the focal length";
 		const double w = lens.image_distance, cosine = Dot(lens.normal, lens.axis);
-		const RealLens<double> real = { m, (lens.power + (m - 1) * cosine / w) / m, lens.aberrations };
+		const RealLens<double> real = { m, (lens.power + (m - 1) * cosine / w) / m, lens.aberrations, etendue };
 		for(const Vec3d& pixel : Pixels)
 			for(const auto& sample : Samples)
 			{

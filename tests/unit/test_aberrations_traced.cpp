@@ -47,7 +47,7 @@ RealLens<Real> LensOfSums(const StoppedLens& lens, const Cardinal& cardinal, Rea
 {
 	const Real B = 0.3L;        // of the chief ray; cancels
 	const Seidel S = SeidelSums(TraceParaxial(lens.surfaces, { radius, 0 }), TraceParaxial(lens.surfaces, { cardinal.entrance_pupil * B, -B }));
-	RealLens<Real> real = { cardinal.pupil_magnification, 1 / cardinal.focal_length, { {}, radius } };
+	RealLens<Real> real = { cardinal.pupil_magnification, 1 / cardinal.focal_length, { {}, radius }, true };
 	real.aberrations.c[Spherical] = -S.I / 8;
 	real.aberrations.c[Coma] = -S.II / (2 * B);
 	real.aberrations.c[Astigmatism] = -S.III / (2 * B * B);
@@ -180,6 +180,37 @@ TEST(TracedLens, WhatTheFiveLeaveIsOfTheFifthOrder)
 			without.aberrations.c[term] = 0;
 			EXPECT_NEAR(double(left(without, 0.1L) / left(without, 0.05L)), 8, 1) << stopped.name << ", " << term;
 		}
+	}
+}
+
+// Where rays meet the entrance pupil, by Seidel's five and the etendue together. What is left of S is what no image shows, how the pupil itself wanders: P^2, one number;
+// with the one that a single ray tells, all others agree but for the fifth order. Without the etendue, or without distortion, the third is left.
+TEST(TracedLens, PointsOfThePupilAreTheGlassesToo)
+{
+	for(const StoppedLens& stopped : Lenses())
+	{
+		const Cardinal cardinal = CardinalOf(stopped.surfaces, stopped.stop);
+		EXPECT_GT(std::fabs(double(cardinal.pupil_magnification - 1)), 0.05) << "or little is shown";
+		RealLens<Real> lens = LensOfSums(stopped, cardinal, 2);
+		// How far the map's S is from the traced ray's.
+		const auto off = [&](const RealLens<Real>& by, Real S_x, Real S_y, Real b_x, Real b_y)
+		{
+			const PupilRay<Real> map = ObjectSideRay(by, TracePair(stopped, cardinal, S_x, S_y, b_x, b_y).image);
+			return Across<Real>{ map.x - S_x, map.y - S_y };
+		};
+		const Real b = 0.001L;
+		lens.aberrations.c[PupilAberration] = off(lens, 0, 0, b, 0).x / (4 * b * b * b);
+		const auto left = [&](const RealLens<Real>& by, Real scale)
+		{
+			const Across<Real> e = off(by, scale * 1.1L, scale * 0.7L, scale * 0.15L, scale * -0.1L);
+			return std::sqrt(Dot(e, e));
+		};
+		EXPECT_NEAR(double(left(lens, 0.1L) / left(lens, 0.05L)), 32, 0.5) << stopped.name;
+		RealLens<Real> thin = lens, straight = lens;
+		thin.etendue = false;
+		straight.aberrations.c[Distortion] = 0;
+		EXPECT_NEAR(double(left(thin, 0.1L) / left(thin, 0.05L)), 8, 1) << stopped.name;
+		EXPECT_NEAR(double(left(straight, 0.1L) / left(straight, 0.05L)), 8, 1) << stopped.name;
 	}
 }
 

@@ -333,7 +333,6 @@ struct RealLens
 	std::vector<double> place_errors_px;      ///< of every edge, predicted minus measured, along its normal to the bright side; states, photographs and edges one after the other
 	double held_out = 0;              ///< RMS residual of photographs predicted by the others, in what is usual of all; 0: cannot be said
 	double held_out_thin = 0;         ///< the same, in the same units, by the thin lens that it starts from
-	double aberration_sigmas = 0;     ///< of spherical aberration, coma and astigmatism, which a thin lens does not have, the most: sigmas, with how far halves of the edges put it apart
 	bool used = false;                ///< it is the answer: Calibration::TiltOf
 	double seconds = 0;               ///< that it took, by the clock
 

@@ -36,6 +36,7 @@ struct CameraAberrations
 {
 	double pupil_magnification = 1, focal_length_mm = 0, radius_mm = 0;   ///< radius: of the entrance pupil at which `mm` is stated
 	std::array<double, 16> mm{};   ///< spherical, coma, astigmatism, curvature, distortion, pupil, and ten of the fifth order: lens/aberrations.h
+	bool etendue = false;              ///< conserved: lens/oblique_pupil.h
 };
 
 struct StateCamera
