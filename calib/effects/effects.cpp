@@ -191,7 +191,7 @@ Effect Named(Effect e, EffectId id)
 	return e;
 }
 
-/// Both kinds of vignetting, each judged beside the other where that is used.
+/// Both kinds of vignetting, each judged beside the other where that is used; of one alone the one that predicts better.
 void DecideVignetting(const EffectChoice& choice, Calibration& c)
 {
 	Effect natural = Named(VignettingOf(c, false, true), EffectId::VIGNETTING_NATURAL), optical = Named(VignettingOf(c, true, true), EffectId::VIGNETTING_OPTICAL);
@@ -203,6 +203,18 @@ void DecideVignetting(const EffectChoice& choice, Calibration& c)
 	{
 		optical = Named(VignettingOf(c, true, false), EffectId::VIGNETTING_OPTICAL);
 		Decide(choice, optical);
+	}
+	else if (choice.kind == EffectChoice::AUTO && !optical.used)
+	{
+		// The natural fall-off of a thin lens is too strong for glass whose exit pupil is the larger one: rims alone may be nearer to the truth.
+		Effect alone = Named(VignettingOf(c, true, false), EffectId::VIGNETTING_OPTICAL);
+		Decide(choice, alone);
+		if (alone.used && alone.held_out_with < natural.held_out_with)
+		{
+			optical = alone;
+			natural.used = false;
+			natural.why = "optical vignetting alone predicts better";
+		}
 	}
 	c.effects.push_back(natural);
 	c.effects.push_back(optical);

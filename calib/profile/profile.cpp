@@ -51,13 +51,18 @@ LineProfile Along(const cv::Mat& a, const cv::Mat& b, const Line& line)
 	return profile;
 }
 
-double WholePicture(const cv::Mat& a, const cv::Mat& b)
+void CompareWhole(const cv::Mat& a, const cv::Mat& b, Comparison& c)
 {
-	double sum = 0;
+	double sum = 0, squares = 0;
 	for (int y = 0; y < a.rows; ++y)
 		for (int x = 0; x < a.cols; ++x)
-			sum += std::abs(Brightness(a.at<float>(y, x)) - Brightness(b.at<float>(y, x)));
-	return sum / double(a.total());
+		{
+			const double off = std::abs(Brightness(a.at<float>(y, x)) - Brightness(b.at<float>(y, x)));
+			sum += off;
+			squares += off * off;
+		}
+	c.mean_abs_error = sum / double(a.total());
+	c.rms_error = std::sqrt(squares / double(a.total()));
 }
 
 const char* MatchName(Match match)
@@ -103,7 +108,7 @@ Comparison Compare(const cv::Mat& a, const cv::Mat& b, const std::vector<Line>& 
 	c.matched = match == Match::NONE ? yb : ApplyShading(yb, c.shading);
 	for (const Line& line : lines)
 		c.lines.push_back(Along(ya, c.matched, line));
-	c.mean_abs_error = WholePicture(ya, c.matched);
+	CompareWhole(ya, c.matched, c);
 	return c;
 }
 
@@ -126,7 +131,7 @@ std::string ComparisonText(const Comparison& c)
 	for (size_t k = 0; k < c.lines.size(); ++k)
 		out += fmt::format("line {} ({}): mean absolute error {:.3f} of 255 over {} samples\n", k + 1, c.lines[k].line.text,
 			c.lines[k].mean_abs_error, c.lines[k].samples.size());
-	return out + fmt::format("whole picture: mean absolute error {:.3f} of 255\n", c.mean_abs_error);
+	return out + fmt::format("whole picture: mean absolute error {:.3f} of 255, RMS {:.3f}\n", c.mean_abs_error, c.rms_error);
 }
 
 std::string ComparisonJson(const Comparison& c, const std::string& file_a, const std::string& file_b)
@@ -141,6 +146,7 @@ std::string ComparisonJson(const Comparison& c, const std::string& file_a, const
 		json["lines"].push_back({ { "line", { p.line.x0, p.line.y0, p.line.x1, p.line.y1 } }, { "samples", p.samples.size() },
 			{ "mean_abs_error", p.mean_abs_error } });
 	json["mean_abs_error"] = c.mean_abs_error;
+	json["rms_error"] = c.rms_error;
 	// A file name may be in another encoding than JSON's.
 	return json.dump(1, '\t', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

@@ -50,7 +50,7 @@ struct Comparison
 	Match match = Match::NONE;
 	Shading shading;                  ///< B was multiplied by it
 	std::vector<LineProfile> lines;
-	double mean_abs_error = 0;        ///< over the whole picture
+	double mean_abs_error = 0, rms_error = 0;   ///< over the whole picture
 	cv::Mat matched;                  ///< B after the match, linear luminance
 };
 

@@ -251,6 +251,29 @@ TEST(CalibrateVignetting, EffectsAskedForAreTakenOrRefused)
 		EXPECT_EQ(CodeOf([&] { ParseEffects(text); }), EXIT_USAGE) << text;
 }
 
+// Of a lens whose exit pupil is the larger one: rims alone predict better than the natural fall-off alone, and beside it they are nothing.
+TEST(CalibrateVignetting, OfTheTwoAloneTheBetterIsWritten)
+{
+	Calibration c = synthetic::Shaded(TiltedBothWays(), RIM, 0.005, 1);
+	c.vignetting = {};
+	for (FalloffAnswer& a : c.vignetting.answers)
+	{
+		a.fitted = a.rim_seen = true;
+		a.rims.resize(1);
+	}
+	const size_t none = FalloffKind(false, false), natural = FalloffKind(true, false), optical = FalloffKind(false, true), both = FalloffKind(true, true);
+	c.vignetting.answers[none].held_out = 0.1;
+	c.vignetting.answers[natural].held_out = c.vignetting.answers[both].held_out = 0.04;
+	c.vignetting.answers[optical].rim_sigmas = 10;
+	for (const double alone : { 0.005, 0.05 })
+	{
+		c.vignetting.answers[optical].held_out = alone;
+		ChooseEffects({}, c);
+		EXPECT_EQ(Uses(c, EffectId::VIGNETTING_OPTICAL), alone < 0.04) << EffectsText(c);
+		EXPECT_EQ(Uses(c, EffectId::VIGNETTING_NATURAL), alone > 0.04) << EffectsText(c);
+	}
+}
+
 TEST(CalibrateVignetting, ClippedWhiteIsNotBelieved)
 {
 	Calibration c = synthetic::Shaded(TiltedBothWays(), RIM, 0.005, 1);

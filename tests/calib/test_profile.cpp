@@ -59,6 +59,7 @@ TEST(Profile, ErrorIsAlongTheLineOnly)
 	EXPECT_NEAR(c.lines[0].mean_abs_error, difference, 1e-3);
 	EXPECT_EQ(c.lines[1].mean_abs_error, 0);
 	EXPECT_NEAR(c.mean_abs_error, difference / 80, 1e-3);
+	EXPECT_NEAR(c.rms_error, difference / std::sqrt(80), 1e-3);
 }
 
 TEST(Profile, SamplesBetweenPixelsInLinearLight)

@@ -60,6 +60,8 @@ refusals)
 	refused stop_of_none "aberrations { f_stop 0 coma 1 }" "$at_origin" "f_stop of aberrations must be greater than 0, but is 0"
 	misread aberration_typo "aberrations { sperical 1 }" "$at_origin" "Unknown word 'sperical' in aberrations; did you mean 'spherical'?"
 	misread aberration_twice "aberrations { spherical 1 spherical 2 }" "$at_origin" "tilt_lens: spherical of aberrations is given twice"
+	misread etendue_twice "aberrations { etendue etendue }" "$at_origin" "tilt_lens: etendue of aberrations is given twice"
+	misread etendue_valued "aberrations { etendue 1 }" "$at_origin" "one of the words of aberrations"
 	misread aberrations_twice "aberrations { coma 1 } aberrations { coma 2 }" "$at_origin" "tilt_lens: aberrations is given twice"
 	misread aberration_outside "coma 1" "$at_origin" "'coma' follows the word aberrations, as in 'aberrations { coma'"
 	misread aberration_reserved "spherical 1" "$at_origin" "'spherical' follows the word aberrations, as in 'aberrations { spherical'"

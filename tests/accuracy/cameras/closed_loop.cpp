@@ -44,6 +44,18 @@ tiltcal::Prescription GlassOf(const Camera& camera)
 	return tiltcal::StoppedTo(printed.Scaled(camera.focal_length / tiltcal::ParaxialOf(printed).focal_length), camera.f_number);
 }
 
+/// Moves the board aside until the glass sees its middle where the thin lens does, as one aims a camera anew: tilted about its stop, a telephoto turns its picture
+/// out of the frame.
+void AimAtBoard(const Camera& camera, const synthetic::Scene& thin, synthetic::TracedScene& traced)
+{
+	const Eigen::Vector2d middle = MiddleOf(camera.board), wanted = synthetic::PixelOf(thin, middle.x(), middle.y());
+	for (int step = 0; step < 4; ++step)
+	{
+		const Eigen::Vector2d off = synthetic::TracedPixelOf(traced, middle.x(), middle.y()) - wanted;
+		traced.origin.head<2>() -= off * camera.pitch * traced.origin.z() / camera.ImageDistance();
+	}
+}
+
 /// What a pattern is behind the glass, where the thin lens's scene stands.
 synthetic::TracedScene ThroughGlass(const Camera& camera, size_t state, const synthetic::Scene& scene)
 {
@@ -57,6 +69,8 @@ synthetic::TracedScene ThroughGlass(const Camera& camera, size_t state, const sy
 	traced.camera_from_board = scene.camera_from_board;
 	traced.origin = scene.origin;
 	traced.rays = 400;
+	if (state > 0 && !camera.shared_poses)
+		AimAtBoard(camera, scene, traced);
 	return traced;
 }
 

@@ -12,6 +12,13 @@
 namespace cameras
 {
 
+Eigen::Vector2d MiddleOf(const tiltcal::Board& b)
+{
+	if (b.IsCheckerboard())
+		return 0.5 * b.square_mm * Eigen::Vector2d(b.columns - 2, b.rows - 2);
+	return 0.5 * b.square_mm * Eigen::Vector2d(b.CircleColumn(b.columns - 1, b.rows - 1), b.rows - 1);
+}
+
 namespace
 {
 
@@ -86,12 +93,6 @@ void Place(Scene& scene, const Eigen::Vector2d& middle, const Eigen::Matrix3d& t
 	scene.origin = distance * ray - turn * Eigen::Vector3d(middle.x(), middle.y(), 0);
 }
 
-Eigen::Vector2d MiddleOf(const tiltcal::Board& b)
-{
-	if (b.IsCheckerboard())
-		return 0.5 * b.square_mm * Eigen::Vector2d(b.columns - 2, b.rows - 2);
-	return 0.5 * b.square_mm * Eigen::Vector2d(b.CircleColumn(b.columns - 1, b.rows - 1), b.rows - 1);
-}
 
 /// A board that fills most of the picture at the usual distance.
 void SizeBoard(Camera& c)

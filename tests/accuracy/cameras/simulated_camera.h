@@ -42,6 +42,9 @@ std::vector<Camera> AllCameras();
 /// A camera drawn at random: lens, sensor, focus, board and tilt, all that AllCameras() spans.
 Camera RandomCamera(unsigned seed);
 
+/// The middle of the board, mm from its first corner or circle.
+Eigen::Vector2d MiddleOf(const tiltcal::Board& board);
+
 /// The scenes of every state, the untilted one first. `seed` chooses the poses. Throws std::runtime_error where no pose
 /// keeps the blur measurable.
 std::vector<std::vector<synthetic::Scene>> PhotographAll(Camera& camera, unsigned seed);
