@@ -136,7 +136,7 @@ std::string Table(const std::vector<Camera>& cameras)
 	std::string text = "| camera | instructions a sample | more than no effect | time, no effect = 1 |\n|---|---|---|---|\n";
 	for (const Camera& camera : cameras)
 		text += fmt::format("| {} | {:.0f} | {} | {:.2f} |\n", camera.name, camera.instructions, &camera == &cameras[1] ? "–" :
-			fmt::format("{:+.0f}", camera.instructions - cameras[1].instructions), camera.seconds / cameras[1].seconds);
+			fmt::format("{:+.0f}", std::round(camera.instructions - cameras[1].instructions) + 0.0), camera.seconds / cameras[1].seconds);
 	return text;
 }
 

@@ -127,10 +127,24 @@ double Deviation::InSigmas() const
 	return sigma == 0 && found == truth ? 0 : found < truth ? -HUGE_VAL : HUGE_VAL;
 }
 
+/// A print a tenth smaller, about its middle: what fills the thin lens's picture may be larger than glass's, whose distortion and keystone are its own.
+void LeaveRoom(Camera& camera, std::vector<std::vector<synthetic::Scene>>& states)
+{
+	const Eigen::Vector2d before = MiddleOf(camera.board);
+	camera.board.square_mm *= 0.9;
+	camera.board.circle_diameter_mm *= 0.9;
+	const Eigen::Vector2d aside = before - MiddleOf(camera.board);
+	for (std::vector<synthetic::Scene>& scenes : states)
+		for (synthetic::Scene& scene : scenes)
+			scene.origin += scene.camera_from_board * Eigen::Vector3d(aside.x(), aside.y(), 0);
+}
+
 Negatives Photograph(const Camera& camera, unsigned seed)
 {
 	Negatives n{ camera, {} };
-	const std::vector<std::vector<synthetic::Scene>> states = PhotographAll(n.camera, seed);
+	std::vector<std::vector<synthetic::Scene>> states = PhotographAll(n.camera, seed);
+	if (!camera.glass.empty())
+		LeaveRoom(n.camera, states);
 	const tiltcal::Board& b = n.camera.board;
 	const synthetic::Pattern pattern = b.IsCheckerboard() ? synthetic::Checkerboard(b.columns, b.rows, b.square_mm)
 		: synthetic::Circles(b.columns, b.rows, b.square_mm, b.circle_diameter_mm, b.kind == tiltcal::TargetKind::ASYMMETRIC_CIRCLES);
@@ -138,7 +152,7 @@ Negatives Photograph(const Camera& camera, unsigned seed)
 	{
 		n.pictures.emplace_back();
 		for (const synthetic::Scene& scene : states[s])
-			n.pictures.back().push_back(camera.glass.empty() ? synthetic::TakePicture(scene, pattern) : synthetic::TakeTracedPicture(ThroughGlass(camera, s, scene), pattern));
+			n.pictures.back().push_back(camera.glass.empty() ? synthetic::TakePicture(scene, pattern) : synthetic::TakeTracedPicture(ThroughGlass(n.camera, s, scene), pattern));
 	}
 	return n;
 }
