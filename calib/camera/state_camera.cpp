@@ -207,13 +207,13 @@ StateCamera ThinCamera(const Node& top, const std::string& name)
 	return c;
 }
 
-/// `lens`: real_lens or scene_lens, which may be left out or have failed.
 /// False where it is not there.
 bool IsTrue(const Node& of, const char* flag)
 {
 	return of.json->contains(flag) && of[flag].Flag();
 }
 
+/// `lens`: real_lens or scene_lens, which may be left out or have failed.
 bool IsUsed(const Node& top, const char* lens)
 {
 	return top.json->contains(lens) && IsTrue(top[lens], "used");

@@ -40,8 +40,7 @@ StateCamera CameraOfLens(const Calibration& c, size_t s)
 	camera.focus_distance_mm = state.lens.focus_distance.value;
 	camera.sigma.focus_distance_mm = state.lens.focus_distance.sigma;
 	camera.lens_centre_mm = state.lens_centre_mm;
-	camera.aberrations = { m, lens.focal_length_mm.value, lens.radius_mm, {} };
-	camera.aberrations->etendue = true;
+	camera.aberrations = { m, lens.focal_length_mm.value, lens.radius_mm, {}, true };
 	for (size_t k = 0; k < lens.aberrations_mm.size(); ++k)
 		camera.aberrations->mm[k] = lens.aberrations_mm[k].value;
 	for (size_t k = 0; k < lens.rims.size() && k < camera.rims_mm.size(); ++k)

@@ -215,12 +215,14 @@ FittedLens FitLens(const std::vector<TracedRay>& rays, const std::vector<GlassFr
 	if (rays.size() < 100)
 		throw Refused(fmt::format("only {} rays come through the glass: too few to learn its aberrations from", rays.size()));
 	double linear[LINEAR_NUMBERS] = { p.focal_length, p.pupil_magnification, p.entrance_pupil, p.exit_pupil }, c[AberrationTerms] = {};
-	if (terms > 0)
-		StartFromObjectSide(rays, frames, p, terms, c);
 	FittedLens fit = ParaxialLens(p);
-	std::copy(c, c + AberrationTerms, fit.lens.aberrations.c);
-	fit.lens.etendue = terms > 0;
-	MeasureMisses(rays, frames, fit);
+	if (terms > 0)
+	{
+		StartFromObjectSide(rays, frames, p, terms, c);
+		fit.lens = MakeLens(linear, c, p.entrance_radius, true);
+		// For its refusal of a start that folds.
+		MeasureMisses(rays, frames, fit);
+	}
 	ceres::Problem problem;
 	for (const TracedRay& ray : rays)
 		problem.AddResidualBlock(new ceres::AutoDiffCostFunction<LandingError, 2, LINEAR_NUMBERS, AberrationTerms>(
