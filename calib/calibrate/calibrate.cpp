@@ -337,6 +337,8 @@ Calibration Solve(const Task& measured, const CalibrateOptions& o)
 	if (model != Model::PAPER)
 	{
 		FindRealLens(o, c);
+		if (c.RealLensIsUsed())
+			ClearByRealLens(*c.real_lens, c.photographs);
 		c.light = CheckLight(c);
 	}
 	// Of what scatters: further photographs do not change what the model leaves out.

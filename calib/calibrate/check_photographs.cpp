@@ -25,6 +25,8 @@ const double MATTERS = 0.1;
 /// The same pixels give the same numbers; two exposures of a board that stood still differ by their noise, 1.41 sigma RMS.
 const double SAME_IN_SIGMAS = 0.35;
 
+bool StandsOut(double rms, double typical) { return rms > STANDS_OUT * typical + MATTERS; }
+
 double RmsOfBlur(const Calibration& c, size_t lens, size_t s, size_t p)
 {
 	const std::vector<Edge>& edges = c.task.states[s].photos[p].edges;
@@ -119,13 +121,32 @@ std::vector<PhotographCheck> CheckPhotographs(const Calibration& c)
 	{
 		check.places_typical = TypicalOfOthers(all, check, [](const PhotographCheck& o) { return o.rms_places; });
 		check.blur_typical = TypicalOfOthers(all, check, [](const PhotographCheck& o) { return o.rms_blur; });
-		check.odd_places = all.size() > 2 && check.rms_places > STANDS_OUT * check.places_typical + MATTERS;
-		check.odd_blur = all.size() > 2 && check.rms_blur > STANDS_OUT * check.blur_typical + MATTERS;
+		check.odd_places = all.size() > 2 && StandsOut(check.rms_places, check.places_typical);
+		check.odd_blur = all.size() > 2 && StandsOut(check.rms_blur, check.blur_typical);
 		if (check.odd_blur)
 			check.fits_state = BetterState(c, check);
 	}
 	FindDoubles(c.task, all);
 	return all;
+}
+
+void ClearByRealLens(const RealLens& lens, std::vector<PhotographCheck>& photographs)
+{
+	std::vector<PhotographCheck> seen = photographs;
+	size_t edge = 0;
+	for (PhotographCheck& check : seen)
+	{
+		double sum = 0;
+		for (size_t k = 0; k < check.edges; ++k)
+			sum += std::pow(lens.blur_errors_px.at(edge++), 2);
+		check.rms_blur = std::sqrt(sum / double(std::max<size_t>(check.edges, 1)));
+	}
+	for (size_t k = 0; k < seen.size(); ++k)
+		if (photographs[k].odd_blur && !StandsOut(seen[k].rms_blur, TypicalOfOthers(seen, seen[k], [](const PhotographCheck& o) { return o.rms_blur; })))
+		{
+			photographs[k].odd_blur = false;
+			photographs[k].fits_state.reset();
+		}
 }
 
 }

@@ -14,6 +14,9 @@ namespace tiltcal
 /// its blur better, and whether it was measured like another, noise and all.
 std::vector<PhotographCheck> CheckPhotographs(const Calibration& calibration);
 
+/// Of these, those whose blur `lens` explains as it does the others' do not stand out by it: aberrations show most where blur is largest.
+void ClearByRealLens(const RealLens& lens, std::vector<PhotographCheck>& photographs);
+
 }
 
 #endif

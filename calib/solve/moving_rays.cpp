@@ -61,8 +61,12 @@ MovingRay MovingRays::Through(double x, double y) const
 	MovingRay ray;
 	ray.image = ValueOf(image);
 	ray.image_by = DerivativeOf(image);
+	// Etendue's part: of S, b, m and the power, in six numbers rather than in all.
+	using RayJet = ceres::Jet<double, 6>;
 	const PupilRay<double> upright = tilt_lens::Aberrate<true>(aberrations, before);
-	ray.object = tilt_lens::ObliquePupil(mounted.lens.pupil_magnification.a, mounted.lens.power.a, upright);
+	const PupilRay<RayJet> oblique = tilt_lens::ObliquePupil(RayJet(mounted.lens.pupil_magnification.a, 4), RayJet(mounted.lens.power.a, 5),
+		PupilRay<RayJet>{ RayJet(upright.x, 0), RayJet(upright.y, 1), RayJet(upright.slope_x, 2), RayJet(upright.slope_y, 3) });
+	ray.object = { oblique.x.a, oblique.y.a, upright.slope_x, upright.slope_y };
 	// J is of (S/r, b).
 	const Eigen::Vector4d unit(aberrations.radius, aberrations.radius, 1, 1);
 	const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> of_pupil(&J[0][0]);
@@ -70,16 +74,11 @@ MovingRay MovingRays::Through(double x, double y) const
 	for (int k = 0; k < AberrationTerms; ++k)
 		ray.object_by.col(PLACE_NUMBERS + k) << by_c[k].x, by_c[k].y, by_c[k].slope_x, by_c[k].slope_y;
 
-	const auto change = [&](double m, double power, const PupilRay<double>& of)
-	{
-		const tilt_lens::Across<double> moved = tilt_lens::ChangeOfObliquePupil(mounted.lens.pupil_magnification.a, mounted.lens.power.a, upright, m, power, of);
-		return Eigen::Vector2d(moved.x, moved.y);
-	};
-	Eigen::Matrix<double, 2, 4> by_ray;
-	by_ray << change(0, 0, { 1, 0, 0, 0 }), change(0, 0, { 0, 1, 0, 0 }), change(0, 0, { 0, 0, 1, 0 }), change(0, 0, { 0, 0, 0, 1 });
-	const Eigen::Matrix<double, 2, RAY_NUMBERS> points = by_ray * ray.object_by;
+	Eigen::Matrix<double, 2, 6> points_by;
+	points_by << oblique.x.v.transpose(), oblique.y.v.transpose();
+	const Eigen::Matrix<double, 2, RAY_NUMBERS> points = points_by.leftCols<4>() * ray.object_by;
 	ray.object_by.topRows<2>() = points;
-	ray.object_by.topLeftCorner<2, PLACE_NUMBERS>() += change(1, 0, {}) * mounted.lens.pupil_magnification.v.transpose() + change(0, 1, {}) * mounted.lens.power.v.transpose();
+	ray.object_by.topLeftCorner<2, PLACE_NUMBERS>() += points_by.col(4) * mounted.lens.pupil_magnification.v.transpose() + points_by.col(5) * mounted.lens.power.v.transpose();
 	return ray;
 }
 

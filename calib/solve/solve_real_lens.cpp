@@ -197,7 +197,10 @@ RealLens Described(const Task& task, const RealLensAnswer& answer, const std::ve
 	found.opening_on_axis_mm = OpeningOnAxis(found);
 	WidenHiddenStop(found);
 	for (const std::array<double, 2>& place_and_blur : answer.residuals)
+	{
 		found.place_errors_px.push_back(place_and_blur[0]);
+		found.blur_errors_px.push_back(place_and_blur[1]);
+	}
 	found.rms_place = answer.error.offset;
 	found.rms_blur = answer.error.blur;
 	found.held_out = answer.judged.held_out;

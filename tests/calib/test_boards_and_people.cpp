@@ -4,6 +4,7 @@
 
 #include <tiltcal/calibrate.h>
 #include <tiltcal/error.h>
+#include "calibrate/check_photographs.h"
 #include "calibrate/verdict.h"
 #include "report/write_csv.h"
 #include "solve/least_squares.h"
@@ -97,6 +98,33 @@ TEST(BoardsAndPeople, ATiltedPhotographAmongTheUntiltedIsNamedWithItsState)
 	const Verdict verdict = Judge(sharpened);
 	EXPECT_THAT(verdict.remarks.front().text, HasSubstr("were sharpened"));
 	EXPECT_THAT(verdict.remarks, Says("it fits the lens of state tilted: file it there"));
+}
+
+// A telephoto's tilted photograph at the end of its range misfits the thin lens by 4.81 px of blur, the others by 0.85: aberrations, which a real lens has.
+TEST(BoardsAndPeople, APhotographThatARealLensExplainsDoesNotStandOut)
+{
+	std::vector<PhotographCheck> thin(4);
+	for (size_t p = 0; p < thin.size(); ++p)
+	{
+		thin[p].photo = p;
+		thin[p].edges = p + 1;
+		thin[p].rms_blur = 0.85;
+	}
+	thin[3].rms_blur = 4.81;
+	thin[3].odd_blur = thin[3].odd_places = true;
+	thin[3].fits_state = 1;
+	RealLens lens;
+	lens.blur_errors_px.assign(10, 0.1);
+	std::vector<PhotographCheck> seen = thin;
+	ClearByRealLens(lens, seen);
+	EXPECT_FALSE(seen[3].odd_blur || seen[3].fits_state);
+	EXPECT_TRUE(seen[3].odd_places);
+	// One that is not of this state misfits the real lens too: by its own blur.
+	std::fill_n(lens.blur_errors_px.begin() + 6, 4, -3.);
+	seen = thin;
+	ClearByRealLens(lens, seen);
+	EXPECT_TRUE(seen[3].odd_blur && seen[3].fits_state);
+	EXPECT_DOUBLE_EQ(seen[3].rms_blur, 4.81);
 }
 
 TEST(BoardsAndPeople, AResidualTiltIsSeenAndCanBeLetFree)

@@ -331,6 +331,7 @@ struct RealLens
 	std::vector<RealLensState> states;
 	double rms_place = 0, rms_blur = 0;       ///< robust, px
 	std::vector<double> place_errors_px;      ///< of every edge, predicted minus measured, along its normal to the bright side; states, photographs and edges one after the other
+	std::vector<double> blur_errors_px;       ///< the same of their blur
 	double held_out = 0;              ///< RMS residual of photographs predicted by the others, in what is usual of all; 0: cannot be said
 	double held_out_thin = 0;         ///< the same, in the same units, by the thin lens that it starts from
 	bool used = false;                ///< it is the answer: Calibration::TiltOf
