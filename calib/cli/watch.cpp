@@ -282,7 +282,7 @@ private:
 		std::string tilts;
 		for (size_t s = 1; s < c.task.states.size(); ++s)
 			tilts += fmt::format(", {} {:.3f} +- {:.3f} degrees", c.task.states[s].name, c.TiltOf(s).lens_tilt.value, c.TiltOf(s).lens_tilt.sigma);
-		Tell(fmt::format("calibrated from {} photographs: {}, w {:.3f} +- {:.3f} mm{}; {}", photographs, NameOf(c.verdict.grade), c.solution.w_mm.value, c.solution.w_mm.sigma, tilts,
+		Tell(fmt::format("calibrated from {} photographs: {}, w {:.3f} +- {:.3f} mm{}; {}", photographs, c.IsJudged() ? NameOf(c.verdict.grade) : "not judged", c.solution.w_mm.value, c.solution.w_mm.sigma, tilts,
 			c.next.known && c.next.missing.empty() ? "nothing is missing" : !c.next.photographs.empty() ? "next: " + c.next.photographs[0].text : "see report.html"));
 	}
 

@@ -154,7 +154,7 @@ Eigen::VectorXd RimFit::Evaluate(const std::vector<Block>& blocks, const Rims& r
 	return all.unaryExpr(&Robust);
 }
 
-std::optional<double> RimFit::Solve(const std::vector<Block>& blocks, Rims& rims, int iterations) const
+std::optional<double> RimFit::Solve(const std::vector<Block>& blocks, Rims& rims, int at_most) const
 {
 	int residuals = 0;
 	for (const Block& block : blocks)
@@ -187,14 +187,14 @@ std::optional<double> RimFit::Solve(const std::vector<Block>& blocks, Rims& rims
 		for (size_t i = 2 * k; i < 2 * k + 2; ++i)
 			x[i] = std::clamp(x[i], problem.GetParameterLowerBound(x.data(), int(i)), problem.GetParameterUpperBound(x.data(), int(i)));
 	}
-	LeastSquares how{ ceres::DENSE_QR, iterations, 1e-6 };
-	how.may_stop_early = true;   // the first rounds choose between starts
+	LeastSquares how{ ceres::DENSE_QR, at_most ? at_most : 100, 1e-6 };
+	how.may_stop_early = at_most > 0;
 	const std::optional<double> final_cost = SolveLeastSquares(how, problem);
 	FromNumbers(x.data(), rims);
 	return final_cost;
 }
 
-std::optional<double> RimFit::Minimise(Rims& rims, size_t left_out, int iterations) const { return Solve(Blocks(Part::WITHOUT, left_out), rims, iterations); }
+std::optional<double> RimFit::Minimise(Rims& rims, size_t left_out, bool few_iterations) const { return Solve(Blocks(Part::WITHOUT, left_out), rims, few_iterations ? 6 : 0); }
 
 void RimFit::LearnSigmas(const Rims& rims)
 {
@@ -236,6 +236,7 @@ bool RimFit::Search(Rims& rims, int distance_sign, double focal_length)
 	std::optional<double> best;
 	for (size_t k = 0; k < count; ++k)
 	{
+		// Enough to choose between starts.
 		const std::optional<double> cost = Solve(blocks, starts[k].second, 15);
 		if (cost && (!best || *cost < *best))
 		{

@@ -30,7 +30,8 @@ public:
 
 	/// Fits in place, each rim's sign of the distance kept, without one group. Returns the cost, half the sum of squares beyond
 	/// which residuals of 3 sigma count linearly; none without convergence, or where nothing is left.
-	std::optional<double> Minimise(Rims& rims, size_t left_out = NONE, int iterations = 30) const;
+	/// `few_iterations`: from a solution that is near; then the limit of 6 is no failure.
+	std::optional<double> Minimise(Rims& rims, size_t left_out = NONE, bool few_iterations = false) const;
 
 	/// From several starts: `start` and, where `distance_sign` is not 0, one more rim on that side of the lens, from a grid. The
 	/// standard deviations of both kinds of residuals become what is left over. False: no convergence.
@@ -57,7 +58,8 @@ private:
 	struct Block;
 	std::vector<Block> Blocks(Part part, size_t group) const;
 	Eigen::VectorXd Evaluate(const std::vector<Block>& blocks, const Rims& rims) const;
-	std::optional<double> Solve(const std::vector<Block>& blocks, Rims& rims, int iterations) const;
+	/// `at_most`: iterations, whose limit is no failure; 0: to convergence.
+	std::optional<double> Solve(const std::vector<Block>& blocks, Rims& rims, int at_most) const;
 	void LearnSigmas(const Rims& rims);
 
 	FalloffFit light_;

@@ -14,11 +14,8 @@ namespace tiltcal
 namespace
 {
 
-/// Below this a second rim is not told from noise.
-const double SIGNIFICANT = 2;
-
-/// From a solution that is near already.
-const int FEW_ITERATIONS = 6;
+/// As the first rim (effects.cpp): it is the best of many places, too.
+const double SIGNIFICANT = 4;
 
 struct Candidate
 {
@@ -46,7 +43,7 @@ void LeaveGroupsOut(const Candidate& c, TwoRims& result)
 	for (size_t group = 0; group < c.fit.Groups(); ++group)
 	{
 		Rims two = c.rims, one = c.one;
-		if (!c.fit.Minimise(two, group, FEW_ITERATIONS) || !c.fit.Minimise(one, group, FEW_ITERATIONS))
+		if (!c.fit.Minimise(two, group, true) || !c.fit.Minimise(one, group, true))
 			two.clear();
 		result.left_out.push_back(two);
 		size_t count = 0;

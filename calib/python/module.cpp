@@ -213,7 +213,7 @@ void AddCalibration(py::module_& m)
 	py::class_<Calibration>(m, "Calibration")
 		.def_property_readonly("states", &Names, "names; the first is the untilted one")
 		.def_property_readonly("model", [](const Calibration& c) { return NameOf(c.Answer()); })
-		.def_property_readonly("grade", [](const Calibration& c) { return NameOf(c.verdict.grade); }, "good, fair or poor")
+		.def_property_readonly("grade", [](const Calibration& c) { return c.IsJudged() ? std::optional<std::string>(NameOf(c.verdict.grade)) : std::nullopt; }, "good, fair or poor; None of the paper's method, which is not judged")
 		.def_property_readonly("remarks", [](const Calibration& c)
 		{
 			std::vector<std::string> texts;

@@ -66,7 +66,7 @@ double RmsBlur(const Calibration& c, size_t s, size_t p)
 Rows StateRows(const Calibration& c)
 {
 	const Geometry& g = c.MainGeometry();
-	Rows rows{ { "state", "lens tilt", "direction", "plane of focus to sensor", "focus distance U", "focal length f", "f-number f/d", "principal point", "blur misfit", "photographs" } };
+	Rows rows{ { "state", "lens tilt", "of its σ left out by the model", "direction", "plane of focus to sensor", "focus distance U", "focal length f", "f-number f/d", "principal point", "blur misfit", "photographs" } };
 	if (g.shared_poses)
 		rows[0].insert(rows[0].end() - 2, "lens centre moved by x, y, z");
 	for (size_t s = 0; s < c.solution.states.size(); ++s)
@@ -75,6 +75,7 @@ Rows StateRows(const Calibration& c)
 		const StateCameraSigma& sigma = camera.sigma;
 		const bool tilted = c.task.states[s].tilted || (c.task.untilted_free && c.solution.model != Model::PAPER);
 		rows.push_back({ HtmlText(camera.state), tilted ? WithSigma(c.TiltOf(s).lens_tilt, "°") : "none",
+			s > 0 && tilted && c.IsJudged() ? Number(c.TiltLeftOutByModel(s), 3) + "°" : "–",
 			tilted ? WithSigma(c.TiltOf(s).tilt_direction, "°") : "–",
 			tilted ? WithSigma({ camera.focal_plane_tilt_deg, sigma.focal_plane_tilt_deg }, "°") : "parallel",
 			FocusText(c.solution.states[s]), WithSigma({ camera.focal_length_mm, sigma.focal_length_mm }, "mm"), WithSigma(FNumber(camera), ""),
@@ -135,8 +136,7 @@ std::string TiltText(const StateLens& lens)
 
 std::string VerdictBox(const Calibration& c)
 {
-	// The paper's model is solved for comparison only and has no sigmas to be judged by.
-	if (c.solution.model == Model::PAPER)
+	if (!c.IsJudged())
 		return "<div class=\"verdict\"><b>No verdict:</b> the paper's model is not judged. Use --model auto for numbers to rely on.</div>\n";
 	const Verdict& verdict = c.verdict;
 	std::string remarks;

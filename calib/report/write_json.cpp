@@ -209,6 +209,14 @@ Json SigmasByPhotographs(const NamedCovariance& c)
 	return json;
 }
 
+Json VerdictJson(const Verdict& verdict)
+{
+	Json json{ { "grade", NameOf(verdict.grade) }, { "remarks", Json::array() } };
+	for (const Remark& remark : verdict.remarks)
+		json["remarks"].push_back({ { "grade", NameOf(remark.grade) }, { "text", remark.text } });
+	return json;
+}
+
 /// What --board, --target, --square and --circle-diameter said.
 Json BoardJson(const Board& board)
 {
@@ -224,6 +232,8 @@ std::string CalibrationJson(const Calibration& c)
 {
 	Json json = SolutionJson(c, c.solution, c.MainGeometry());
 	PutAnswer(c, json);
+	for (size_t s = 1; s < c.solution.states.size() && c.IsJudged(); ++s)
+		json["states"][s]["lens_tilt_model_sigma_deg"] = c.TiltLeftOutByModel(s);
 	json["image_size_px"] = { c.task.width, c.task.height };
 	json["pixel_pitch_mm"] = c.task.pitch_mm;
 	json["exif"] = ExifJson(c.task);
@@ -282,10 +292,8 @@ std::string CalibrationJson(const Calibration& c)
 		const double unknown = std::numeric_limits<double>::quiet_NaN();
 		Put(json["light"], "exponent", "", c.light.exponent.value_or(Estimate{ unknown, unknown }));
 	}
-	json["verdict"]["grade"] = NameOf(c.verdict.grade);
-	json["verdict"]["remarks"] = Json::array();
-	for (const Remark& remark : c.verdict.remarks)
-		json["verdict"]["remarks"].push_back({ { "grade", NameOf(remark.grade) }, { "text", remark.text } });
+	if (c.IsJudged())
+		json["verdict"] = VerdictJson(c.verdict);
 	if (c.next.known)
 		json["next_photographs"] = NextPhotographsJson(c);
 	json["render"] = SolutionJson(c, c.render, c.RenderGeometry());

@@ -67,6 +67,14 @@ std::string RealLensRows(const Calibration& c)
 	return rows;
 }
 
+std::string LeftOutByModel(const Calibration& c)
+{
+	std::string out = "of the sigmas of the tilts, what the model leaves out (more photographs do not lower it):";
+	for (size_t s = 1; s < c.task.states.size(); ++s)
+		out += fmt::format("{} {} {:.3f}", s > 1 ? "," : "", c.task.states[s].name, c.TiltLeftOutByModel(s));
+	return out + " deg\n";
+}
+
 std::string ModelLine(const Solution& s)
 {
 	if (!s.failure.empty())
@@ -230,6 +238,8 @@ std::string SummaryTable(const Calibration& c)
 	out += StateRows(c, c.solution, c.MainGeometry());
 	if (compare && c.paper.failure.empty())
 		out += StateRows(c, c.paper, c.paper_geometry);
+	if (c.IsJudged() && c.task.states.size() > 1)
+		out += LeftOutByModel(c);
 	const Geometry& g = c.MainGeometry();
 	out += fmt::format("\nreprojection {:.3f} px RMS", g.rms);
 	if (g.distortion_terms)
@@ -248,7 +258,7 @@ std::string SummaryTable(const Calibration& c)
 		out += RealLensText(c);
 	if (c.scene_lens)
 		out += SceneLensText(c);
-	if (c.solution.model != Model::PAPER)
+	if (c.IsJudged())
 		out += VerdictText(c.verdict) + NextText(c);
 	return out;
 }

@@ -170,7 +170,7 @@ std::string HowSeparated(const Json& results)
 		"and a cubic polynomial times the picture’s change under a Gaussian of 1 px. Each counts with what it takes away from the model’s error: the closed loop is fitted in the same way and taken off after every step, so that calibration error is not counted twice, "
 		"and two seeds’ grain is taken through the same steps, so that grain which they smooth is not counted as model. The displacement holds an error of the camera’s place too, if there is one. "
 		"The order matters a little: what two of them could explain is counted with the first.</dd>\n"
-		"<dt>shape of the blur, outliers</dt><dd>The rest: discs that are not evenly bright, coma, a surface of focus that is no paraboloid, pupils that change with the angle of the ray.</dd>\n</dl>\n";
+		"<dt>shape of the blur, outliers</dt><dd>The rest: discs that are not evenly bright, and what the camera leaves of the lens’s aberrations: all beyond a paraboloid of focus for a thin lens, the seventh order for a real one.</dd>\n</dl>\n";
 }
 
 std::string ClosedLoop(const Json& closed)
@@ -241,8 +241,8 @@ std::string Pupils(const Json& pupils)
 		for (std::vector<std::string>& row : rows)
 			row.pop_back();
 	return "<h3>Pupils and curvature</h3>\n<p>A thin lens has one pupil, at the lens, and one bowl of focus. This one has not. The entrance pupil wanders as the lens turns about its pivot, the two pupils differ in size, "
-		"rims before and behind the stop cut the light of oblique bundles, and edges of two directions focus on two different bowls, of which the camera renders the mean. "
-		"A pupil that moves and changes with the angle of the ray (pupil aberration) is not modelled beyond this; what is left of it is in the last part of the ablation.</p>\n" + tiltcal::html::Table(rows);
+		"rims before and behind the stop cut the light of oblique bundles, and edges of two directions focus on two different bowls. Of these a thin camera renders the mean, and it has one pupil that stays; "
+		"a real lens’s sixteen numbers hold both bowls, and how its pupils wander and change with the angle of the ray. What is left of it is in the last part of the ablation.</p>\n" + tiltcal::html::Table(rows);
 }
 
 std::string Effects(const Json& results)

@@ -36,12 +36,19 @@ Json Estimate(const Json& from, const std::string& name, const std::string& unit
 
 Json Only(double value) { return { { "value", value }, { "sigma", nullptr } }; }
 
+/// Of anything that has states.
 Json TiltsOf(const Json& calibration)
 {
 	Json states;
 	for (const char* const state : { "plus5", "minus5" })
 		states[state] = Estimate(StateOf(calibration, state), "lens_tilt", "_deg");
 	return states;
+}
+
+/// What the whole run took, by the clock.
+Json SecondsOf(const Run& run, const std::string& model)
+{
+	return std::stod(tiltcal::ReadText(run.out + "/models/" + model + "/seconds.txt", "a number of seconds"));
 }
 
 Json LensOf(const Json& calibration)
@@ -84,12 +91,17 @@ Json TiltTable(const Run& run)
 			published[p.state] = Only(p.tilt_deg);
 	const auto add = [&](const char* name, const Json& states) { table["methods"].push_back({ { "name", name }, { "states", states } }); };
 	add("published", published);
-	for (const char* const model : { "paper", "rigid", "plane" })
+	for (const char* const model : { "paper", "rigid", "plane", "curved", "photometric" })
+	{
 		add(model, TiltsOf(ReadJson(Calibration(run, std::string("models/") + model))));
+		table["methods"].back()["seconds"] = SecondsOf(run, model);
+	}
 	const Json calibration = ReadJson(Calibration(run, "demo/calibration"));
 	add("default", TiltsOf(calibration));
+	table["methods"].back()["seconds"] = SecondsOf(run, "default");
 	table["default_model"] = calibration.at("model");
-	add("photometric", TiltsOf(ReadJson(Calibration(run, "models/photometric"))));
+	if (calibration.contains("scene_lens"))
+		add("scene_lens", TiltsOf(calibration.at("scene_lens")));
 	if (calibration.at("tilt_told_by").contains("geometry_alone"))
 	{
 		Json states;

@@ -7,6 +7,7 @@
 #include "calibrate/check_photographs.h"
 #include "calibrate/verdict.h"
 #include "report/write_csv.h"
+#include "report/write_json.h"
 #include "solve/least_squares.h"
 #include "support/synthetic_lens.h"
 
@@ -76,6 +77,17 @@ TEST(BoardsAndPeople, NothingIsSaidOfAGoodSet)
 		// Four numbers about nothing: 4 sigma each fail once in 4000 runs.
 		for (const Estimate& e : { c.board_check.widening, c.board_check.bend_along_columns, c.board_check.bend_along_rows, c.board_check.twist, c.untilted_check.lens_tilt })
 			EXPECT_LT(std::abs(e.value), 4 * e.sigma);
+	}
+}
+
+TEST(BoardsAndPeople, ThePapersMethodIsNotJudged)
+{
+	const Task task = Named({ Photograph("untilted", Lens(), NoiseOf(11)), Photograph("tilted", Tilted(5, 30), NoiseOf(12)) });
+	const std::string paper = CalibrationJson(Calibrate(task, { Model::PAPER, Poses::AUTO })), plane = CalibrationJson(Calibrate(task, PLANE));
+	for (const char* const key : { "\"verdict\"", "\"lens_tilt_model_sigma_deg\"" })
+	{
+		EXPECT_THAT(paper, Not(HasSubstr(key)));
+		EXPECT_THAT(plane, HasSubstr(key));
 	}
 }
 

@@ -12,7 +12,9 @@
 #include <tiltcal/next_photographs.h>
 #include <tiltcal/task.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
@@ -383,6 +385,14 @@ struct Calibration
 	const StateLens& TiltOf(size_t s) const { return RealLensIsUsed() ? real_lens->states[s].lens : solution.states[s]; }
 	/// The same with the sigmas that more photographs make smaller.
 	const StateLens& TiltAsItScatters(size_t s) const { return RealLensIsUsed() ? real_lens->states[s].as_it_scatters : s < thin_as_it_scatters.size() ? thin_as_it_scatters[s] : solution.states[s]; }
+	/// What of the sigma of TiltOf's lens tilt does not scatter, degrees: how far photographs left out, parts of the edges and lenses with more numbers put it apart.
+	double TiltLeftOutByModel(size_t s) const
+	{
+		const double all = TiltOf(s).lens_tilt.sigma, scatter = TiltAsItScatters(s).lens_tilt.sigma;
+		return std::sqrt(std::max(0., all * all - scatter * scatter));
+	}
+	/// The paper's method is solved for comparison only.
+	bool IsJudged() const { return solution.model != Model::PAPER; }
 	Model Answer() const { return RealLensIsUsed() ? Model::LENS : solution.model; }
 
 	/// Geometry that belongs to the calibration's own solution (the paper has its own).
