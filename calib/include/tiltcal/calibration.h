@@ -125,6 +125,11 @@ struct Solution
 	NamedCovariance covariance;
 	std::vector<LeftOut> left_out;   ///< each photograph in turn
 	std::string failure;     ///< why there is no answer; empty when there is one
+	std::vector<Estimate> stop_ratios;   ///< diameters of Task::stops over the reference's, whose own is 1; empty: one opening for all
+
+	/// Of the opening that a photograph was taken through: over the reference's; and its diameter, mm.
+	double RatioOf(const Photo& photo) const { return photo.stop < stop_ratios.size() ? stop_ratios[photo.stop].value : 1; }
+	double ApertureOf(const Photo& photo) const { return aperture_diameter.value * RatioOf(photo); }
 };
 
 /// The exact models on the same edges, with their held_out_px. rigid and curved may have no answer (failure).
@@ -261,6 +266,7 @@ struct PhotographCheck
 	std::optional<size_t> fits_state;      ///< its blur is that of this other state
 	std::optional<std::pair<size_t, size_t>> same_as;   ///< state and photograph that was measured alike, noise and all
 	bool odd_places = false, odd_blur = false;   ///< it stands out
+	size_t stop = 0;
 };
 
 /// What the corners say of the board's shape: the same fit with a board that need not be as it was told. Nothing else uses it.
@@ -323,6 +329,7 @@ struct RealLens
 	std::string failure;              ///< why there is none; empty when there is one
 	Estimate focal_length_mm, pupil_magnification, aperture_diameter_mm, psf_floor_squared;
 	Estimate opening_on_axis_mm;      ///< what the rims leave of the aperture on the axis, of the light from the point in focus; never more than it
+	std::vector<Estimate> stop_ratios;   ///< as Solution's
 	double radius_mm = 0;             ///< of the entrance pupil, at which the aberrations are stated
 	/// Spherical, coma, astigmatism, curvature, distortion, pupil, and ten of the fifth order, in the order of lens/aberrations.h.
 	std::array<Estimate, 16> aberrations_mm;
@@ -384,6 +391,9 @@ struct Calibration
 	/// The same with the sigmas that more photographs make smaller.
 	const StateLens& TiltAsItScatters(size_t s) const { return RealLensIsUsed() ? real_lens->states[s].as_it_scatters : s < thin_as_it_scatters.size() ? thin_as_it_scatters[s] : solution.states[s]; }
 	Model Answer() const { return RealLensIsUsed() ? Model::LENS : solution.model; }
+
+	const std::vector<Estimate>& StopRatios() const { return RealLensIsUsed() ? real_lens->stop_ratios : solution.stop_ratios; }
+	const Estimate& ApertureOfAnswer() const { return RealLensIsUsed() ? real_lens->aperture_diameter_mm : solution.aperture_diameter; }
 
 	/// Geometry that belongs to the calibration's own solution (the paper has its own).
 	const Geometry& MainGeometry() const { return solution.model == Model::PAPER ? paper_geometry : geometry; }
