@@ -197,7 +197,7 @@ private:
 	/// Beyond three times what engraved numbers are off.
 	void Stops()
 	{
-		const std::vector<Estimate>& ratios = c.solution.stop_ratios;
+		const std::vector<Estimate>& ratios = c.StopRatios();
 		for (size_t k = 1; k < ratios.size(); ++k)
 		{
 			const Stop &wide = c.task.stops[0], &own = c.task.stops[k];

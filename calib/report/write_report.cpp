@@ -81,7 +81,7 @@ std::string StopLines(const Calibration& c)
 	const std::vector<Estimate>& ratios = c.StopRatios();
 	std::string out = ratios.empty() ? "" : "\nstops, of one lens:\n";
 	for (size_t k = 0; k < ratios.size(); ++k)
-		out += fmt::format("  f/{:<4g} {:.3f} mm{}\n", c.task.stops[k].f_number, ratios[k].value * c.ApertureOfAnswer().value,
+		out += fmt::format("  f/{:<4g} {:.3f} mm{}\n", c.task.stops[k].f_number, ratios[k].value * c.ApertureOfStops().value,
 			k ? fmt::format(", {} of f/{:g}; the f-numbers say {:.4f}", PlusMinus(ratios[k], 4), c.task.stops[0].f_number, c.task.stops[0].f_number / c.task.stops[k].f_number) : "");
 	return out;
 }

@@ -2,7 +2,7 @@
 # usage: cli.sh CASE TILTCAL PHOTOS WORK
 # Runs one case in a fresh folder WORK; exits 0 when the program behaved as documented.
 set -u
-case=$1 tiltcal=$2 photos=$3 work=$4
+case=$1 tiltcal=$2 photos=$3 work=$4 tests=$(cd "$(dirname "$0")" && pwd)
 rm -rf "$work" && mkdir -p "$work" && cd "$work" || exit 99
 target=$photos/target glass=$photos/../double-gauss.txt
 
@@ -124,10 +124,10 @@ bad_stops)
 	calibrate 2 "untilted-1.jpg: is of state untilted.*give --state untilted:f_number=N=" "$target/untilted-1.jpg" --state plus5:f_number=8="$target/plus5-1.jpg" ;;
 stops)
 	set -- calibrate --model plane --board 12x9 --square 25 --pitch 0.02 --edges-per-photo 40 --threads 1
-	# One f-number is no stop, however often it is told: not a digit changes.
+	# One f-number is no stop, however often it is told. Ceres orders blocks by their addresses, so that sigmas differ in their last digits (by 1e-12 where malloc alone is tuned otherwise).
 	expect 0 "$@" --untilted "$target/untilted-[1-6].jpg" --tilted plus5="$target/plus5-[1-6].jpg" --out without
 	expect 0 "$@" --state plus5:f_number=2.8="$target/plus5-[1-3].jpg" --tilted plus5:f_number=2.8="$target/plus5-[4-6].jpg" --state untilted:f_number=2.8="$target/untilted-[1-6].jpg" --out with
-	cmp without/calibration.json with/calibration.json || fail "one f-number changed the answer"
+	python3 "$tests/same_numbers.py" without/calibration.json with/calibration.json 1e-9 || fail "one f-number changed the answer"
 	! grep -q '"stops"' with/calibration.json || fail "one f-number is a stop"
 	# Of what is f/2.8 told for f/4: the opening is found to be the same, and the verdict says so.
 	expect 0 "$@" --state untilted:f_number=2.8="$target/untilted-[1-3].jpg" --state untilted:f_number=4="$target/untilted-[4-6].jpg" \

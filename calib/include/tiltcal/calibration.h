@@ -392,8 +392,9 @@ struct Calibration
 	const StateLens& TiltAsItScatters(size_t s) const { return RealLensIsUsed() ? real_lens->states[s].as_it_scatters : s < thin_as_it_scatters.size() ? thin_as_it_scatters[s] : solution.states[s]; }
 	Model Answer() const { return RealLensIsUsed() ? Model::LENS : solution.model; }
 
-	const std::vector<Estimate>& StopRatios() const { return RealLensIsUsed() ? real_lens->stop_ratios : solution.stop_ratios; }
-	const Estimate& ApertureOfAnswer() const { return RealLensIsUsed() ? real_lens->aperture_diameter_mm : solution.aperture_diameter; }
+	/// Of several stops: of what is known best. Six numbers put the focus of a stopped-down lens by their spherical aberration, which stands for the fifth order's too.
+	const std::vector<Estimate>& StopRatios() const { return RealLensIsUsed() ? LensOfScenes().stop_ratios : solution.stop_ratios; }
+	const Estimate& ApertureOfStops() const { return RealLensIsUsed() ? LensOfScenes().aperture_diameter_mm : solution.aperture_diameter; }
 
 	/// Geometry that belongs to the calibration's own solution (the paper has its own).
 	const Geometry& MainGeometry() const { return solution.model == Model::PAPER ? paper_geometry : geometry; }
