@@ -49,11 +49,18 @@ void WidenPoint(const std::vector<Point>& others, const Point& value, Point& sig
 	}
 }
 
+void WidenStops(const std::vector<Estimate>& others, std::vector<Estimate>& told)
+{
+	for (size_t k = 0; k < told.size(); ++k)
+		Widen({ others[k].value }, told[k]);
+}
+
 /// What both lenses state of the glass and of where it stands: its exit pupil is m times as far as what the pictures tell.
 void WidenGlass(const RealLens& other, RealLens& told)
 {
 	for (Estimate RealLens::* number : { &RealLens::focal_length_mm, &RealLens::pupil_magnification, &RealLens::aperture_diameter_mm, &RealLens::opening_on_axis_mm })
 		Widen({ (other.*number).value }, told.*number);
+	WidenStops(other.stop_ratios, told.stop_ratios);
 	for (size_t s = 0; s < told.states.size(); ++s)
 	{
 		Widen({ other.states[s].image_distance_mm.value }, told.states[s].image_distance_mm);
@@ -96,6 +103,7 @@ void WidenByEachOther(const Solution& thin, RealLens& six, std::optional<RealLen
 	{
 		for (Estimate RealLens::* opening : { &RealLens::aperture_diameter_mm, &RealLens::opening_on_axis_mm })
 			Widen({ thin.aperture_diameter.value }, lens.*opening);
+		WidenStops(thin.stop_ratios, lens.stop_ratios);
 	};
 	if (fifth && fifth->failure.empty())
 	{
@@ -136,6 +144,8 @@ void WidenByRealLens(Calibration& c)
 	{
 		Widen(f, told->focal_length);
 		Widen(OfEach(lenses, [](const RealLens& l) { return l.opening_on_axis_mm.value; }), told->aperture_diameter);
+		for (const RealLens* lens : lenses)
+			WidenStops(lens->stop_ratios, told->stop_ratios);
 		Widen(OfEach(lenses, [](const RealLens& l) { return l.states[0].image_distance_mm.value / l.pupil_magnification.value; }), told->w_mm);
 		Widen(focus(0), told->focus_distance);
 		for (size_t s = 0; s < told->states.size(); ++s)

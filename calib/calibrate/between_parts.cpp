@@ -88,6 +88,8 @@ void WidenByParts(const Solution& whole, const std::vector<PartAnswer>& parts, S
 	widen([](auto& s) -> auto& { return s.focal_length; });
 	widen([](auto& s) -> auto& { return s.aperture_diameter; });
 	widen([](auto& s) -> auto& { return s.focus_distance; });
+	for (size_t k = 0; k < told.stop_ratios.size(); ++k)
+		widen([k](auto& s) -> auto& { return s.stop_ratios[k]; });
 	for (size_t k = 0; k < told.states.size(); ++k)
 	{
 		widen([k](auto& s) -> auto& { return s.states[k].focal_length; });

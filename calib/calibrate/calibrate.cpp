@@ -14,6 +14,7 @@
 #include "calibrate/exif_check.h"
 #include "calibrate/floor_shape.h"
 #include "calibrate/next_photographs.h"
+#include "calibrate/stops_of_photographs.h"
 #include "calibrate/use_threads.h"
 #include "calibrate/verdict.h"
 #include "base/robust.h"
@@ -171,6 +172,7 @@ void CheckTask(const Task& task)
 			throw UsageError(fmt::format("state {}: no photographs", state.name));
 	if (task.width < 1 || task.height < 1)
 		throw UsageError("the task does not say the photographs' width and height, px");
+	CheckStops(task);
 }
 
 void LogEffects(const Calibration& c, const Log& log)

@@ -36,7 +36,7 @@ double RmsOfBlur(const Calibration& c, size_t lens, size_t s, size_t p)
 	return edges.empty() ? 0 : std::sqrt(sum / double(edges.size()));
 }
 
-/// Median over the others of its state, so that none stands out where all of them are off; of all states where fewer than two
+/// Median over the others of its state and stop, so that none stands out where all of them are off; of all states where fewer than two
 /// others do not say which one is right. 0 where there are none.
 template<typename Value>
 double TypicalOfOthers(const std::vector<PhotographCheck>& all, const PhotographCheck& own, const Value& value)
@@ -47,7 +47,8 @@ double TypicalOfOthers(const std::vector<PhotographCheck>& all, const Photograph
 		if (&other == &own)
 			continue;
 		others.push_back(value(other));
-		if (other.state == own.state)
+		// What the model leaves out of a blur grows with it.
+		if (other.state == own.state && other.stop == own.stop)
 			of_state.push_back(value(other));
 	}
 	if (of_state.size() >= 2)
@@ -112,6 +113,7 @@ std::vector<PhotographCheck> CheckPhotographs(const Calibration& c)
 			PhotographCheck check;
 			check.state = s;
 			check.photo = p;
+			check.stop = c.task.states[s].photos[p].stop;
 			check.edges = c.task.states[s].photos[p].edges.size();
 			check.rms_places = c.geometry.states[s].photo_rms[p];
 			check.rms_blur = RmsOfBlur(c, s, s, p);

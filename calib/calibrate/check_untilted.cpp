@@ -16,7 +16,7 @@ UntiltedCheck CheckUntilted(const Calibration& c)
 {
 	const Solution& s = c.solution;
 	const std::vector<Observation> observations = Observe(c.task, c.geometry);
-	BlurFit fit{ s.lens, observations, s.w_mm.value, 0.1, c.task.priors };
+	BlurFit fit{ s.lens, observations, s.w_mm.value, 0.1, c.task.priors, c.task.stops };
 	Unknowns x = UnknownsOf(s);
 	x.untilted_free = true;
 	UntiltedCheck check;

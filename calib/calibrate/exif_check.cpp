@@ -100,6 +100,16 @@ PhotographFacts CommonFacts(const std::vector<PhotographFacts>& all)
 
 PhotographFacts CommonFacts(const Task& task) { return CommonFacts(FactsOf(task)); }
 
+std::optional<double> FNumberOfReference(const Task& task)
+{
+	std::vector<PhotographFacts> all;
+	for (const State& state : task.states)
+		for (const Photo& photo : state.photos)
+			if (photo.stop == 0)
+				all.push_back(photo.facts);
+	return CommonFacts(all).f_number;
+}
+
 double PitchFromExif(const std::vector<std::string>& files, const Log& log)
 {
 	std::vector<PhotographFacts> all;
@@ -126,7 +136,8 @@ void LogFacts(const Task& task, const Log& log)
 	WarnOfDifference(task, log, "cameras", "a calibration is of one sensor", [](const PhotographFacts& f) { return f.model.empty() ? "" : f.make + " " + f.model; });
 	WarnOfDifference(task, log, "lenses", "a calibration is of one lens", [](const PhotographFacts& f) { return f.lens; });
 	WarnOfDifference(task, log, "focal lengths", "a calibration is of one setting of zoom and focus", [](const PhotographFacts& f) { return Number(f.focal_length_mm, " mm"); });
-	WarnOfDifference(task, log, "f-numbers", "the aperture is taken to be one for all of them", [](const PhotographFacts& f) { return Number(f.f_number, ""); });
+	if (task.stops.empty())
+		WarnOfDifference(task, log, "f-numbers", "the aperture is taken to be one for all of them", [](const PhotographFacts& f) { return Number(f.f_number, ""); });
 	bool turned = false;
 	for (const PhotographFacts& facts : FactsOf(task))
 		turned = turned || facts.orientation != 1;
@@ -146,12 +157,12 @@ std::vector<std::string> CompareWithExif(const Calibration& c)
 		words.push_back(fmt::format("focal length f {:.2f} +- {:.2f} mm, EXIF {:g} mm (engraved, rounded, for infinity; to compare with f, not with the image distance w {:.2f} mm). "
 			"Believe f if `pitch` is right and the photographs were not scaled, for f is proportional to the pitch; many lenses also shorten f when focused near. Else EXIF may be of another lens",
 			f, s.focal_length.sigma, *facts.focal_length_mm, s.w_mm.value));
-	if (facts.f_number && f > 0 && d > 0)
+	if (const std::optional<double> told = FNumberOfReference(c.task); told && f > 0 && d > 0)
 	{
 		const double number = f / d, relative = std::hypot(s.focal_length.sigma / f, s.aperture_diameter.sigma / d);
-		if (std::abs(std::log(number / *facts.f_number)) > FAR_F_NUMBER + 3 * relative)
+		if (std::abs(std::log(number / *told)) > FAR_F_NUMBER + 3 * relative)
 			words.push_back(fmt::format("f-number f/d {:.2f} +- {:.2f}, EXIF {:.3g} (the marked stop, rounded). Believe d {:.2f} mm for rendering: it is what blurred these photographs; "
-				"but a wrong `transfer`, `pitch` or `square` shows here too, and a lens with its own aperture ring writes no f-number that is true", number, number * relative, *facts.f_number, d));
+				"but a wrong `transfer`, `pitch` or `square` shows here too, and a lens with its own aperture ring writes no f-number that is true", number, number * relative, *told, d));
 	}
 	return words;
 }
@@ -188,7 +199,7 @@ std::vector<Prior> PriorsFromExif(const Task& task, const std::vector<Prior>& gi
 			priors.push_back({ quantity, *value, 0.1 * *value });
 	};
 	add(Quantity::FOCAL_LENGTH, facts.focal_length_mm);
-	add(Quantity::F_NUMBER, facts.f_number);
+	add(Quantity::F_NUMBER, FNumberOfReference(task));
 	return priors;
 }
 

@@ -23,6 +23,9 @@ namespace tiltcal
 PhotographFacts CommonFacts(const std::vector<PhotographFacts>& all);
 PhotographFacts CommonFacts(const Task& task);
 
+/// What the photographs of the reference stop, those that say any, say alike.
+std::optional<double> FNumberOfReference(const Task& task);
+
 /// Pitch from EXIF, mm, logged; 0.2 % is the most by which photographs may differ. Throws UsageError
 /// that asks for the pitch when they do not say it; FileError.
 double PitchFromExif(const std::vector<std::string>& files, const Log& log);

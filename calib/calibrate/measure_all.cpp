@@ -5,6 +5,7 @@
 #include "calibrate/exif_check.h"
 #include "calibrate/in_order.h"
 #include "calibrate/quiet.h"
+#include "calibrate/stops_of_photographs.h"
 #include "calibrate/use_threads.h"
 #include "measure/bright_patches.h"
 #include "measure/measure.h"
@@ -17,6 +18,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <map>
 #include <string_view>
@@ -66,12 +68,13 @@ void CheckSize(Task& task, const Photo& photo)
 			photo.file, photo.width, photo.height, task.width, task.height));
 }
 
-std::vector<std::string> NamesOf(const std::vector<StateFiles>& states)
+/// Where a name comes first. Twice without an f-number it is two states', which may not be.
+size_t FirstOf(const std::vector<StateFiles>& states, size_t k)
 {
-	std::vector<std::string> names;
-	for (const StateFiles& s : states)
-		names.push_back(s.name);
-	return names;
+	for (size_t i = 0; i < k; ++i)
+		if (states[i].name == states[k].name && (states[i].f_number || states[k].f_number))
+			return i;
+	return k;
 }
 
 }
@@ -98,29 +101,40 @@ MeasuredPhotograph MeasureOne(const std::string& file, const Board& board, const
 TaskOfPhotographs::TaskOfPhotographs(const std::vector<StateFiles>& states, const Board& board, double pitch_mm)
 {
 	CheckPitch(pitch_mm);
-	CheckStateNames(NamesOf(states));
+	std::vector<std::string> names;
+	for (size_t k = 0; k < states.size(); ++k)
+	{
+		if (states[k].f_number && !(*states[k].f_number > 0 && std::isfinite(*states[k].f_number)))
+			throw UsageError(fmt::format("state {}: f_number {:g} is no number above 0", states[k].name, *states[k].f_number));
+		const size_t first = FirstOf(states, k);
+		sets.push_back({ first == k ? names.size() : sets[first].state, states[k].f_number });
+		if (first == k)
+			names.push_back(states[k].name);
+	}
+	CheckStateNames(names);
 	task.board = board;
 	task.pitch_mm = pitch_mm;
-	for (const StateFiles& s : states)
-		task.states.push_back({ s.name, !task.states.empty(), {} });
+	for (const std::string& name : names)
+		task.states.push_back({ name, !task.states.empty(), {} });
 }
 
-void TaskOfPhotographs::Add(size_t state, MeasuredPhotograph one)
+void TaskOfPhotographs::Add(size_t set, MeasuredPhotograph one)
 {
 	CheckSize(task, one.photo);
 	// By their pixels: a copy under another name or in another lossless format is none the newer.
 	const auto [at, is_new] = seen.emplace(one.hash, one.photo.file);
 	if (!is_new)
 		throw Refused(fmt::format("{}: has the pixels of {}: the same photograph twice makes sigmas too small, and in two states one of them is wrong; leave one out", one.photo.file, at->second));
-	task.states[state].photos.push_back(std::move(one.photo));
+	one.photo.f_number = sets[set].f_number;
+	task.states[sets[set].state].photos.push_back(std::move(one.photo));
 }
 
 Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, double pitch_mm, const MeasureOptions& o, const SeePicture& see)
 {
 	const QuietLibraries quiet;
 	const UseThreads threads(o.threads);
-	TaskOfPhotographs task(states, board, pitch_mm);
-	std::vector<std::pair<size_t, std::string>> files;    // state, file
+	TaskOfPhotographs photographs(states, board, pitch_mm);
+	std::vector<std::pair<size_t, std::string>> files;    // of `states`, file
 	for (size_t s = 0; s < states.size(); ++s)
 		for (const std::string& file : states[s].files)
 			files.emplace_back(s, file);
@@ -134,10 +148,12 @@ Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, doubl
 	}, [&](size_t k)
 	{
 		LogPhoto(measured[k].photo, k + 1, files.size(), o.log);
-		task.Add(files[k].first, std::move(measured[k]));
+		photographs.Add(files[k].first, std::move(measured[k]));
 	});
-	LogFacts(task.Get(), o.log);
-	return task.Get();
+	Task task = photographs.Get();
+	SetStops(task, o.log);
+	LogFacts(task, o.log);
+	return task;
 }
 
 void AddFlatField(Task& task, size_t state, const std::string& file, const MeasureOptions& o)

@@ -29,19 +29,30 @@ struct MeasuredPhotograph
 /// `grey` receives its brightness in linear light. Throws Error.
 MeasuredPhotograph MeasureOne(const std::string& file, const Board& board, const MeasureOptions& options, cv::Mat& grey);
 
-/// A task, photograph by photograph. Throws as MeasureAll.
+/// A task, photograph by photograph, without stops (stops_of_photographs.h). Throws as MeasureAll.
 class TaskOfPhotographs
 {
 public:
 	TaskOfPhotographs(const std::vector<StateFiles>& states, const Board& board, double pitch_mm);
 
-	/// Throws Refused, and adds nothing: of another size, or the pixels of another.
-	void Add(size_t state, MeasuredPhotograph photograph);
+	/// To the `set`-th of the states that were given. Throws Refused, and adds nothing: of another size, or the pixels of another.
+	void Add(size_t set, MeasuredPhotograph photograph);
+
+	/// The state of the task that a set is of.
+	size_t StateOf(size_t set) const { return sets[set].state; }
 
 	const Task& Get() const { return task; }
 
 private:
+	/// Photographs of one state at one f-number.
+	struct Set
+	{
+		size_t state;
+		std::optional<double> f_number;
+	};
+
 	Task task;
+	std::vector<Set> sets;
 	std::map<size_t, std::string> seen;   ///< by hash
 };
 

@@ -66,6 +66,7 @@ public:
 			BlurAgainstGeometry(s);
 		}
 		Priors();
+		Stops();
 		Correlations();
 		if (!explained)
 			Limit();
@@ -190,6 +191,19 @@ private:
 			if (pull > 3)
 				Say(pull > 6 ? Grade::POOR : Grade::FAIR, fmt::format("{} was given as {:.5g} +- {:.2g}, the photographs pull it to {}: are `square`, `pitch` and the value right?",
 					prior.Name(), prior.value, prior.sigma, prior.quantity == Quantity::FOCUS_DISTANCE ? FocusWords(InverseFocus(s.states[0])).value_or(fmt::format("{:.5g}", found)) : fmt::format("{:.5g}", found)));
+		}
+	}
+
+	/// Beyond three times what engraved numbers are off.
+	void Stops()
+	{
+		const std::vector<Estimate>& ratios = c.StopRatios();
+		for (size_t k = 1; k < ratios.size(); ++k)
+		{
+			const Stop &wide = c.task.stops[0], &own = c.task.stops[k];
+			if (std::abs(std::log(ratios[k].value * own.f_number / wide.f_number)) > 3 * own.log_sigma)
+				Say(Grade::FAIR, fmt::format("the photographs at f/{:g} show {:.3f} of the opening of those at f/{:g}, where the f-numbers say {:.3f}: are the photographs those of these f-numbers?",
+					own.f_number, ratios[k].value, wide.f_number, wide.f_number / own.f_number));
 		}
 	}
 

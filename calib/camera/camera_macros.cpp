@@ -8,6 +8,7 @@
 #include <ceres/rotation.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace tiltcal
@@ -32,6 +33,14 @@ std::string PhotoPose(const std::string& prefix, size_t number, const Photo& pho
 		name, SdlVector(location), name, SdlVector(location + forward), name, SdlVector(back(0, 1, 0)));
 }
 
+/// "f5_6"
+std::string FNumberName(const Stop& stop)
+{
+	std::string name = fmt::format("f{:g}", stop.f_number);
+	std::replace(name.begin(), name.end(), '.', '_');
+	return name;
+}
+
 }
 
 std::string SdlVector(const Vec3<double>& v, int digits)
@@ -51,6 +60,17 @@ std::string PhotoPoses(const std::string& prefix, const std::vector<Photo>& phot
 			out += fmt::format("{} {}_Photo_{}_{}", p ? "," : "", prefix, p + 1, part);
 		out += " };\n";
 	}
+	return out;
+}
+
+std::string StopDeclares(const std::string& prefix, const std::vector<Stop>& stops, const std::vector<Estimate>& ratios, double aperture_mm)
+{
+	if (ratios.empty())
+		return "";
+	std::string out = fmt::format("// The photographs' stops. Stopped down: #declare {0}_Aperture_Diameter = {0}_Aperture_Diameter_{1}; before the camera.\n", prefix, FNumberName(stops.back()));
+	for (size_t k = 0; k < ratios.size(); ++k)
+		out += fmt::format("#declare {}_Aperture_Diameter_{} = {:.10g};   // mm, of f/{:g}{}\n", prefix, FNumberName(stops[k]), aperture_mm * ratios[k].value, stops[k].f_number,
+			k ? fmt::format(": {:.4g} +- {:.2g} of the widest", ratios[k].value, ratios[k].sigma) : "");
 	return out;
 }
 

@@ -5,7 +5,7 @@
 #ifndef TILTCAL_CAMERA_MACROS_H
 #define TILTCAL_CAMERA_MACROS_H
 
-#include <tiltcal/photo.h>
+#include <tiltcal/calibration.h>
 #include <tiltcal/frames.h>
 
 #include <string>
@@ -19,6 +19,9 @@ std::string SdlVector(const Vec3<double>& v, int digits = 9);
 
 /// `#declare`s of where the camera stood, board frame: PREFIX_Photo_1_Location, .., and arrays of all.
 std::string PhotoPoses(const std::string& prefix, const std::vector<Photo>& photos, const std::vector<Pose>& poses);
+
+/// `#declare`s of the diameter of every stop, by its f-number, PREFIX_Aperture_Diameter_f5_6, and how to take one; `aperture_mm` is the reference's. Empty: there is but one.
+std::string StopDeclares(const std::string& prefix, const std::vector<Stop>& stops, const std::vector<Estimate>& ratios, double aperture_mm);
 
 /// PREFIX(Location, Look_At, Sky) about the block, PREFIX_Body, PREFIX_Pose. `centre`: what Location is.
 std::string CameraMacros(const std::string& prefix, const std::string& centre, const std::string& block);

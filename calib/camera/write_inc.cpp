@@ -93,6 +93,7 @@ std::string Numbers(const Calibration& c, size_t s, Distorted distorted, const s
 	const auto declare = [&](const std::string& name, double value, double its_sigma, const std::string& comment) { out += Declare(prefix, name, { value, its_sigma }, comment); };
 	declare("Image_Distance", camera.image_distance_mm, sigma.image_distance_mm, "mm");
 	out += ApertureText(camera, (bare ? c.render : c.solution).aperture_diameter.value, prefix);
+	out += StopDeclares(prefix, c.task.stops, (bare ? c.render : c.solution).stop_ratios, camera.aperture_diameter_mm);
 	out += FocusText(camera, (bare ? c.render : c.solution).states[s], prefix);
 	declare("Focal_Length", camera.focal_length_mm, sigma.focal_length_mm, "mm");
 	declare("Focal_Plane_Tilt", camera.focal_plane_tilt_deg, sigma.focal_plane_tilt_deg, "degrees");

@@ -98,7 +98,7 @@ std::string RealLensPart(const Calibration& c, size_t s)
 	layout.rims_only_if = camera.rims_mm.empty() ? "" : "TiltCal_Rim";
 	layout.place = MacroPlace(p, camera.width * camera.pitch_mm, camera.height * camera.pitch_mm);
 	return fmt::format("// One real lens for all states: focal length {:.6g} +- {:.2g} mm; the places of edges fit to {:.3f} px, their blurs to {:.3f} px.\n", found.focal_length_mm.value,
-		found.focal_length_mm.sigma, found.rms_place, found.rms_blur) + Declares(camera, p) + PhotoPoses(p, c.task.states[s].photos, found.states[s].poses) + "\n" +
+		found.focal_length_mm.sigma, found.rms_place, found.rms_blur) + Declares(camera, p) + StopDeclares(p, c.task.stops, found.stop_ratios, camera.aperture_diameter_mm) + PhotoPoses(p, c.task.states[s].photos, found.states[s].poses) + "\n" +
 		CameraMacros(p, "the centre of the entrance pupil", CameraBlockText(camera, DeclaredNumbers(p), layout));
 }
 

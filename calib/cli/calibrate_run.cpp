@@ -4,6 +4,7 @@
 
 #include "model/priors.h"
 #include "model/state_names.h"
+#include "model/told_state.h"
 #include "program/program.h"
 #include "program/spelling.h"
 #include "calibrate/measure_all.h"
@@ -39,6 +40,8 @@ const int FEWEST_EDGES = 12;
 
 const int MOST_THREADS = 1024;
 
+const char* const UNTILTED = "untilted";
+
 /// --square VALUE or VALUE:SIGMA, mm.
 Estimate ParseSquare(const std::string& text)
 {
@@ -49,36 +52,50 @@ Estimate ParseSquare(const std::string& text)
 	return { *value, *sigma };
 }
 
-/// The state's name and pattern of --tilted NAME='GLOB'.
-std::pair<std::string, std::string> NameAndPattern(const std::string& option)
+/// Adds the photographs of --tilted and --state: beside those of the same name.
+void AddPatterns(const std::string& option, const std::string& text, std::vector<StatePatterns>& states)
 {
-	const size_t equals = option.find('=');
-	if (equals == std::string::npos)
-		throw UsageError(fmt::format("--tilted {}: give NAME='GLOB', such as plus5='plus5-*.png'", option));
-	const std::string given = option.substr(0, equals), name = WithUnderscores(given);
-	if (name != given)
-		spdlog::info("state {} is called {}, as POV-Ray's identifiers must be", OneLine(given), name);
-	return { name, option.substr(equals + 1) };
+	const ToldPhotographs told = ParseToldPhotographs(text, option);
+	const std::string& given = told.state.name;
+	StatePatterns own{ WithUnderscores(given), fmt::format("{} {}", option, text.substr(0, text.size() - told.pattern.size() - 1)), { told.pattern }, told.state.f_number };
+	if (own.name != given)
+		spdlog::info("state {} is called {}, as POV-Ray's identifiers must be", OneLine(given), own.name);
+	auto after = states.end();
+	for (auto at = states.begin(); at != states.end(); ++at)
+		if (at->name == own.name)
+		{
+			if (at->f_number && own.f_number && IsSameFNumber(*at->f_number, *own.f_number))
+			{
+				at->patterns.push_back(told.pattern);
+				return;
+			}
+			if (!at->f_number && !own.f_number)
+				throw UsageError(fmt::format("{} {}: the state's NAME '{}' is already taken; give every state its own", option, text, own.name));
+			after = at + 1;
+		}
+	// The untilted state stands first wherever it is told.
+	states.insert(after == states.end() && own.name == UNTILTED ? states.begin() : after, own);
+	try
+	{
+		CheckStateNames(NamesOf(states));
+	}
+	catch (const Error& e)
+	{
+		throw UsageError(fmt::format("{} {}: {}", option, text, e.what()));
+	}
 }
 
 std::vector<StatePatterns> Patterns(const CalibrateWords& o)
 {
-	std::vector<StatePatterns> states{ { "untilted", "--untilted", o.untilted } };
-	std::vector<std::string> names{ "untilted" };
-	for (const std::string& option : o.tilted)
-	{
-		const auto [name, pattern] = NameAndPattern(option);
-		names.push_back(name);
-		try
-		{
-			CheckStateNames(names);
-		}
-		catch (const Error& e)
-		{
-			throw UsageError(fmt::format("--tilted {}: {}", option, e.what()));
-		}
-		states.push_back({ name, "--tilted " + name, { pattern } });
-	}
+	std::vector<StatePatterns> states;
+	if (!o.untilted.empty())
+		states.push_back({ UNTILTED, "--untilted", o.untilted });
+	for (const std::string& text : o.tilted)
+		AddPatterns("--tilted", text, states);
+	for (const std::string& text : o.state)
+		AddPatterns("--state", text, states);
+	if (states.empty() || states[0].name != UNTILTED)
+		throw UsageError("--untilted is required (or --state untilted:f_number=N='GLOB')");
 	return states;
 }
 
@@ -86,18 +103,19 @@ std::vector<StatePatterns> Patterns(const CalibrateWords& o)
 std::vector<FieldPattern> FlatFields(const CalibrateWords& o, const std::vector<StatePatterns>& states)
 {
 	std::vector<FieldPattern> fields;
+	const std::vector<std::string> all = NamesOf(states);
 	for (const std::string& option : o.flat_field)
 	{
 		const size_t equals = option.find('=');
 		const std::string name = WithUnderscores(option.substr(0, equals));
 		std::string names;
-		size_t state = states.size();
-		for (size_t s = 0; s < states.size(); ++s)
+		size_t state = all.size();
+		for (size_t s = 0; s < all.size(); ++s)
 		{
-			names += (s ? ", " : "") + states[s].name;
-			state = states[s].name == name ? s : state;
+			names += (s ? ", " : "") + all[s];
+			state = all[s] == name ? s : state;
 		}
-		if (equals == std::string::npos || state == states.size())
+		if (equals == std::string::npos || state == all.size())
 			throw UsageError(fmt::format("--flat-field {}: give NAME=FILE, NAME one of the states {}", option, names));
 		fields.push_back({ state, "--flat-field " + name, option.substr(equals + 1) });
 	}
@@ -197,6 +215,15 @@ void SpellAsOptions(Calibration& c)
 		spell(remark.text);
 }
 
+}
+
+std::vector<std::string> NamesOf(const std::vector<StatePatterns>& states)
+{
+	std::vector<std::string> names;
+	for (const StatePatterns& state : states)
+		if (names.empty() || names.back() != state.name)
+			names.push_back(state.name);
+	return names;
 }
 
 PackedPicture Pack(const cv::Mat& grey)

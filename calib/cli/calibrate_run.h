@@ -23,21 +23,25 @@ struct CalibrateWords
 	std::string board, target = "checkerboard", transfer = "srgb", model = "auto", poses = "auto", refine = "edges", effects = "auto", square, out, watch;
 	double circle_diameter = 0;
 	std::optional<double> pitch;
-	std::vector<std::string> untilted, tilted, fix, prior, flat_field;
+	std::vector<std::string> untilted, tilted, state, fix, prior, flat_field;
 	bool any_orientation = false, untilted_free = false;
 	int edges_per_photo = 0, threads = 0;
 };
 
-/// Where the photographs of a state are, and the option that says it.
+/// Where the photographs of a state at one f-number are, and the option that says it.
 struct StatePatterns
 {
 	std::string name, option;
 	std::vector<std::string> patterns;
+	std::optional<double> f_number{};
 };
+
+/// Of the states, each once, in their order.
+std::vector<std::string> NamesOf(const std::vector<StatePatterns>& states);
 
 struct FieldPattern
 {
-	size_t state;
+	size_t state;   ///< of NamesOf
 	std::string option, pattern;
 };
 
@@ -63,7 +67,7 @@ public:
 	Board board;
 	MeasureOptions measure;
 	CalibrateOptions options;
-	std::vector<StatePatterns> states;
+	std::vector<StatePatterns> states;   ///< those of one name follow each other; the untilted one first
 	std::vector<FieldPattern> fields;
 	Known known;
 
@@ -73,7 +77,7 @@ public:
 	/// The calibration of photographs that were measured. `expected_seconds`: 0, or as long as it took the last time.
 	Calibration Solve(Task task, double expected_seconds) const;
 
-	/// All files of --out. `packed`: by state and photograph.
+	/// All files of --out. `packed`: by state of the task and photograph.
 	void Write(const Calibration& calibration, const std::vector<std::vector<const PackedPicture*>>& packed, const WatchNotes& watch) const;
 };
 

@@ -41,7 +41,7 @@ void Once(const CalibrateRun& run)
 	size_t count = 0;
 	for (const StatePatterns& state : run.states)
 	{
-		files.push_back({ state.name, ExpandGlobs(state.patterns, state.option) });
+		files.push_back({ state.name, ExpandGlobs(state.patterns, state.option), state.f_number });
 		count += files.back().files.size();
 	}
 	const double pitch = run.Pitch(files);
@@ -67,10 +67,10 @@ void Once(const CalibrateRun& run)
 	const Calibration c = run.Solve(std::move(task), 0);
 	std::vector<std::vector<const PackedPicture*>> packed;
 	size_t n = 0;
-	for (const StateFiles& state : files)
+	for (const State& state : c.task.states)
 	{
 		packed.emplace_back();
-		for (size_t p = 0; p < state.files.size(); ++p)
+		for (size_t p = 0; p < state.photos.size(); ++p)
 			packed.back().push_back(&pictures[n++]);
 	}
 	run.Write(c, packed, {});
@@ -102,9 +102,12 @@ void AddCalibrate(CLI::App& app, const std::string& command_line)
 	c->add_option("--circle-diameter", o->circle_diameter, "Diameter of a circle, mm; 0: half the distance of neighbouring centres. A little more or less does no "
 		"harm: it is measured in every photograph")->capture_default_str();
 	c->add_option("--pitch", o->pitch, "Distance of pixel centres on the sensor, mm; needed unless EXIF says it (FocalPlaneXResolution)");
-	c->add_option("--untilted", o->untilted, "Photographs with the lens untilted: names or quoted patterns")->required();
+	c->add_option("--untilted", o->untilted, "Photographs with the lens untilted: names or quoted patterns");
 	c->add_flag("--untilted-free", o->untilted_free, "Do not take the lens of --untilted to be straight: find its tilt too");
 	c->add_option("--tilted", o->tilted, "NAME='GLOB': photographs of one tilted state; NAME of letters, digits and _ (- and . become _); may be repeated");
+	c->add_option("--state", o->state, "NAME:f_number=N='GLOB': photographs of the state NAME, untilted too, at that f-number; may be repeated, with other f-numbers of one NAME, also in --tilted. "
+		"Photographs of one NAME share tilt, image distance and principal point. The diameter at the least f-number is found, and how wide the others open beside it; "
+		"photographs without f_number are of the one that EXIF says. NAME='GLOB': as --tilted");
 	c->add_option("--model", o->model, ModelHelp())->capture_default_str();
 	c->add_option("--transfer", o->transfer, "Transfer curve of 8 and 16 bit pictures: srgb, linear or a gamma; OpenEXR is linear")->capture_default_str();
 	c->add_option("--poses", o->poses, "shared: photograph n shows the board in one pose in every state; own: not; auto: see for itself")->capture_default_str();
@@ -124,9 +127,12 @@ void AddCalibrate(CLI::App& app, const std::string& command_line)
 	c->add_flag("--any-orientation", o->any_orientation, "Accept a board that stands upside down (a mirrored picture looks the same)");
 	c->add_option("--out", o->out, "Folder for calibration.json, camera-<state>.inc, overlays, report.txt and report.html (all on one page); created if missing")->required();
 	c->add_option("--watch", o->watch, "FOLDER: go on, until Ctrl-C: measure photographs as they arrive there, calibrate anew and draw report.html again, which loads itself. Patterns of "
-		"--untilted, --tilted and --flat-field are of files in FOLDER and may match none yet");
+		"--untilted, --tilted, --state and --flat-field are of files in FOLDER and may match none yet");
 	c->footer("Example:\n  tiltcal calibrate --board 12x9 --square 25 --pitch 0.02 --untilted 'target/untilted-*.png' \\\n"
-		"      --tilted plus5='target/plus5-*.png' --tilted minus5='target/minus5-*.png' --out calibration\n\n"
+		"      --tilted plus5='target/plus5-*.png' --tilted minus5='target/minus5-*.png' --out calibration\n"
+		"Wide open and stopped down together:\n"
+		"  tiltcal calibrate --board 12x9 --square 25 --pitch 0.02 --state untilted:f_number=2.8='open/untilted-*.png' \\\n"
+		"      --state untilted:f_number=8='small/untilted-*.png' --state plus5:f_number=2.8='open/plus5-*.png' --out calibration\n\n"
 		"Photograph the board inclined by 20 to 45 degrees in several directions, with parts before and\n"
 		"behind the plane of focus. Lengths are mm, angles degrees, picture measures pixels.\n"
 		"Ctrl-C leaves nothing half written. With --watch it ends the watching: exit code 0 where there is a calibration.\n"

@@ -8,6 +8,7 @@
 #include "calibrate/next_photographs.h"
 #include "calibrate/coverage.h"
 #include "calibrate/quiet.h"
+#include "calibrate/stops_of_photographs.h"
 #include "calibrate/use_threads.h"
 #include "cli/watched_files.h"
 #include "program/process.h"
@@ -153,9 +154,8 @@ private:
 	{
 		Assembled out;
 		TaskOfPhotographs task(files.Settled(), run.board, run.Pitch(PhotographsAlone()));
+		out.packed.resize(task.Get().states.size());
 		for (size_t s = 0; s < files.Settled().size(); ++s)
-		{
-			out.packed.emplace_back();
 			for (const std::string& file : files.Settled()[s].files)
 			{
 				const auto at = measured.find(file);
@@ -164,7 +164,7 @@ private:
 				try
 				{
 					task.Add(s, *at->second.photograph);
-					out.packed.back().push_back(&at->second.picture);
+					out.packed[task.StateOf(s)].push_back(&at->second.picture);
 					++out.photographs;
 				}
 				catch (const Error& e)
@@ -173,8 +173,8 @@ private:
 					Tell(fmt::format("skipped: {}", e.what()));
 				}
 			}
-		}
 		out.task = task.Get();
+		SetStops(out.task, run.options.log);
 		return out;
 	}
 
@@ -184,7 +184,7 @@ private:
 		std::vector<StateFiles> out;
 		for (const StateFiles& state : files.Settled())
 		{
-			out.push_back({ state.name, {} });
+			out.push_back({ state.name, {}, state.f_number });
 			for (const std::string& file : state.files)
 				if (const auto at = measured.find(file); at != measured.end() && at->second.photograph)
 					out.back().files.push_back(file);
@@ -261,7 +261,7 @@ private:
 				continue;
 			}
 			for (size_t s = 0; s < task.states.size(); ++s)
-				if (task.states[s].name == run.states[field.state].name)
+				if (task.states[s].name == NamesOf(run.states)[field.state])
 					out.push_back({ s, field.option, field.pattern });
 		}
 		return out;
@@ -299,8 +299,8 @@ private:
 	{
 		Task task;
 		task.board = run.board;
-		for (const StatePatterns& state : run.states)
-			task.states.push_back({ state.name, !task.states.empty(), {} });
+		for (const std::string& name : NamesOf(run.states))
+			task.states.push_back({ name, !task.states.empty(), {} });
 		return task;
 	}
 

@@ -44,7 +44,7 @@ void WatchedFiles::Look()
 	pending = false;
 	for (const StatePatterns& state : states)
 	{
-		settled.push_back({ state.name, {} });
+		settled.push_back({ state.name, {}, state.f_number });
 		std::vector<std::string> files;
 		try
 		{

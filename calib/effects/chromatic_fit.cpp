@@ -129,7 +129,7 @@ double AxialSlope(const Calibration& c, size_t s, size_t p, const Edge& e)
 	const double floor_squared = c.solution.psf_floor_squared.value, step = 1e-7;
 	const auto width = [&](double axial)
 	{
-		return SoftDiameterOfSquare(SquaredFootprintWidth(c.solution.aperture_diameter.value, c.solution.states[s].q + axial * n, n, curvature, P, G) + floor_squared);
+		return SoftDiameterOfSquare(SquaredFootprintWidth(c.solution.ApertureOf(c.task.states[s].photos[p]), c.solution.states[s].q + axial * n, n, curvature, P, G) + floor_squared);
 	};
 	return (width(step) - width(-step)) / (2 * step);
 }

@@ -24,6 +24,7 @@ EdgeShift ShiftOf(const Calibration& c, size_t s, size_t p, const Edge& e)
 	const Vec3<double> move = MoveByLensPoint(c.solution.states[s].q, n, curvature, P, EdgeGradient(g, s, P, e));
 	EdgeShift shift;
 	shift.view = ViewOfPixel(c, s, e.x, e.y);
+	shift.view.opening = c.solution.RatioOf(c.task.states[s].photos[p]);
 	shift.by_x = -Dot(move, basis.a);
 	shift.by_y = -Dot(move, basis.b);
 	const Point normal = EdgeNormal(e), at = Reproject(c.task, g, s, p, e.board_column, e.board_row);

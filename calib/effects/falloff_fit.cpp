@@ -38,7 +38,7 @@ T LogOpenShare(const FalloffSample& s, double lens_radius, const T* rim)
 {
 	using std::exp;
 	using std::log;
-	const T share = tilt_lens::OpenShare(tilt_lens::ViewOfRim(Lifted<T>(s.n), Lifted<T>(s.v), T(s.kappa), exp(rim[1])), T(lens_radius), exp(rim[0]));
+	const T share = tilt_lens::OpenShare(tilt_lens::ViewOfRim(Lifted<T>(s.n), Lifted<T>(s.v), T(s.kappa), exp(rim[1])), T(lens_radius * s.opening), exp(rim[0]));
 	return share > T(LEAST_SHARE) ? log(share) : T(std::log(LEAST_SHARE));
 }
 
@@ -118,7 +118,7 @@ std::vector<FalloffUnknowns> Starts(const FalloffFit& fit, double focal_length, 
 
 double LogLight(const FalloffFit& fit, const FalloffSample& s, const std::vector<tilt_lens::Rim>& rims)
 {
-	const double share = OpeningOf(s, fit.lens_radius, fit.image_distance, rims).area / (tilt_lens::Pi * fit.lens_radius * fit.lens_radius);
+	const double radius = fit.lens_radius * s.opening, share = OpeningOf(s, fit.lens_radius, fit.image_distance, rims).area / (tilt_lens::Pi * radius * radius);
 	return (fit.natural ? s.log_natural : 0) + std::log(std::max(share, LEAST_SHARE));
 }
 

@@ -42,7 +42,7 @@ struct FalloffUnknowns
 struct FalloffFit
 {
 	std::vector<FalloffSample> samples;
-	double lens_radius = 0;     ///< mm
+	double lens_radius = 0;     ///< mm, at the reference stop
 	bool natural = true, optical = true;
 	std::vector<tilt_lens::Rim> rims;   ///< mm; where there are any, they stand instead of the unknown one, and `optical` is false
 	double image_distance = 0;  ///< w, mm

@@ -89,8 +89,9 @@ PixelView ViewOfPixel(const Calibration& c, size_t s, double u, double v)
 	return view;
 }
 
-Opening OpeningOf(const PixelView& seen, double lens_radius, double image_distance, const std::vector<tilt_lens::Rim>& rims)
+Opening OpeningOf(const PixelView& seen, double radius_of_reference, double image_distance, const std::vector<tilt_lens::Rim>& rims)
 {
+	const double lens_radius = radius_of_reference * seen.opening;
 	const tilt_lens::LensBasis<double> basis = tilt_lens::BasisOfLensPlane(seen.n);
 	std::vector<Disc> discs{ { 0, 0, lens_radius } };
 	for (const tilt_lens::Rim& rim : rims)

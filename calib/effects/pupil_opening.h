@@ -36,12 +36,13 @@ struct PixelView
 	Vec3<double> v{ 0, 0, 1 };       ///< direction on the scene's side
 	Vec3<double> pixel{ 0, 0, 1 };   ///< direction of the pixel, as the sensor sees it
 	double kappa = 0;                ///< inverse focus distance of v, 1/mm
+	double opening = 1;              ///< radius of the photograph's stop, in those of the reference
 };
 
 /// Of the pixel (u, v) of state `s`, as the calibration's solution of an exact model says.
 PixelView ViewOfPixel(const Calibration& calibration, size_t s, double u, double v);
 
-/// What the rims leave of a lens of that radius, mm, in the axes of BasisOfLensPlane(n). `image_distance`: w, mm.
+/// What the rims leave of a lens of that radius, mm, at the view's stop, in the axes of BasisOfLensPlane(n). `image_distance`: w, mm.
 Opening OpeningOf(const PixelView& view, double lens_radius, double image_distance, const std::vector<tilt_lens::Rim>& rims);
 
 }

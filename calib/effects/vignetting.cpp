@@ -44,23 +44,24 @@ struct Data
 	size_t first_edge_group = 0;        ///< of the board's first photograph, where its edges are looked at too
 };
 
-/// How the lens of state `s` sees a patch.
-FalloffSample Seen(const Calibration& c, size_t s, const BrightPatch& patch)
+/// How the lens of state `s` sees a patch, through that part of the reference's opening.
+FalloffSample Seen(const Calibration& c, size_t s, double opening, const BrightPatch& patch)
 {
 	FalloffSample sample;
 	static_cast<PixelView&>(sample) = ViewOfPixel(c, s, patch.u, patch.v);
+	sample.opening = opening;
 	sample.log_natural = std::log(tilt_lens::NaturalFalloff(sample.n, Vec3<double>{ 0, 0, 1 }, sample.pixel));
 	sample.log_value = std::log(patch.value);
 	sample.sigma = patch.sigma / patch.value;
 	return sample;
 }
 
-void Add(const Calibration& c, size_t s, const BrightPatch& patch, size_t light, const double (&place)[2], size_t group, Data& data)
+void Add(const Calibration& c, size_t s, double opening, const BrightPatch& patch, size_t light, const double (&place)[2], size_t group, Data& data)
 {
 	// Beyond the lens's image circle there is no light, and no logarithm.
 	if (!(patch.value > 0))
 		return;
-	FalloffSample sample = Seen(c, s, patch);
+	FalloffSample sample = Seen(c, s, opening, patch);
 	sample.gain = data.exposures.size() - 1;
 	sample.light = light;
 	std::copy(place, place + 2, sample.place);
@@ -83,7 +84,7 @@ Data FromFlatFields(const Calibration& c)
 		{
 			// A single picture is left out by quarters.
 			const size_t quarter = size_t(p.u > 0.5 * c.task.width) + 2 * size_t(p.v > 0.5 * c.task.height);
-			Add(c, fields[k].state, p, 0, { 0, 0 }, fields.size() > 1 ? k : quarter, data);
+			Add(c, fields[k].state, 1, p, 0, { 0, 0 }, fields.size() > 1 ? k : quarter, data);
 		}
 	}
 	data.first_edge_group = data.groups;
@@ -106,7 +107,7 @@ Data FromWhite(const Calibration& c)
 			data.exposures.push_back({ s, p });
 			data.lights = std::max(data.lights, light + 1);
 			for (const BrightPatch& patch : white)
-				Add(c, s, patch, light, { 2 * patch.board_column / board.columns - 1, 2 * patch.board_row / board.rows - 1 }, number, data);
+				Add(c, s, c.solution.RatioOf(c.task.states[s].photos[p]), patch, light, { 2 * patch.board_column / board.columns - 1, 2 * patch.board_row / board.rows - 1 }, number, data);
 		}
 	return data;
 }

@@ -33,7 +33,7 @@ double PredictedBlurAs(const Calibration& c, size_t lens, size_t s, size_t p, co
 	const Solution& solution = c.solution;
 	const Vec3<double> P = EdgeInCamera(c.task, g.states[s].poses[p], edge);
 	const Vec3<double> q = solution.states[lens].q;
-	const double d = solution.aperture_diameter.value, floor = solution.psf_floor_px.value;
+	const double d = solution.ApertureOf(c.task.states[s].photos[p]), floor = solution.psf_floor_px.value;
 	// The paper's (4) takes the focal depth at the point's height, not along its ray.
 	if (solution.model == Model::PAPER)
 		return std::hypot(tilt_lens::SignedBlurWidth(g.w_px, d, { 0, 0, q.z / (1 - P.y * q.y) }, P), floor);

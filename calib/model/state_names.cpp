@@ -36,7 +36,7 @@ bool IsTaken(const std::string& name)
 /// What a camera-<state>.inc declares behind TiltCal_<state>_.
 bool IsDeclared(const std::string& rest)
 {
-	static const std::regex declared("Body|Pose|Photos|Photo_([0-9]+_)?(Location|Look_At|Sky)|Image_Distance|Aperture_Diameter|Focus_Distance|Focal_Length|"
+	static const std::regex declared("Body|Pose|Photos|Photo_([0-9]+_)?(Location|Look_At|Sky)|Image_Distance|Aperture_Diameter(_f[0-9_]+)?|Focus_Distance|Focal_Length|"
 		"Focal_Plane_Tilt|Tilt_Direction|Lens_Tilt|Shift_[XY]|Principal_Point_[XY]|Field_Curvature|Psf_Floor|[KP][1-3]|Rim[0-9]*_(Radius|Distance)|"
 		"(Lateral|Axial)_(Red|Blue)|Lens_Centre");
 	return std::regex_match(rest, declared);

@@ -16,7 +16,9 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -137,15 +139,19 @@ Log LogTo(const py::object& progress)
 }
 
 using Photographs = std::map<std::string, std::vector<std::filesystem::path>>;
+/// State, f-number, files.
+using AtStop = std::tuple<std::string, double, std::vector<std::filesystem::path>>;
 
 Calibration CalibrateFiles(const std::vector<std::filesystem::path>& untilted, const Photographs& tilted, const std::string& board, double square_mm, double pitch_mm,
 	const std::string& target, double circle_diameter_mm, const std::string& model, const std::string& poses, const std::string& transfer, int edges_per_photo,
-	int threads, const py::object& progress)
+	int threads, const std::optional<double>& f_number, const std::vector<AtStop>& stopped, const py::object& progress)
 {
 	const auto names = [](const std::vector<std::filesystem::path>& files) { return std::vector<std::string>(files.begin(), files.end()); };
-	std::vector<StateFiles> states{ { "untilted", names(untilted) } };
+	std::vector<StateFiles> states{ { "untilted", names(untilted), f_number } };
 	for (const auto& [name, files] : tilted)
-		states.push_back({ name, names(files) });
+		states.push_back({ name, names(files), f_number });
+	for (const auto& [name, number, files] : stopped)
+		states.push_back({ name, names(files), number });
 	for (const StateFiles& state : states)
 		if (state.files.empty())
 			throw UsageError("state " + state.name + " has no photographs");
@@ -232,8 +238,9 @@ void AddCalibration(py::module_& m)
 		}, py::arg("state") = "", py::arg("distorted") = true, "distorted=False: the best camera without distortion");
 	m.def("calibrate", &CalibrateFiles, py::arg("untilted"), py::arg("tilted"), py::kw_only(), py::arg("board"), py::arg("square_mm"), py::arg("pitch_mm"),
 		py::arg("target") = "checkerboard", py::arg("circle_diameter_mm") = 0.0, py::arg("model") = "auto", py::arg("poses") = "auto", py::arg("transfer") = "srgb",
-		py::arg("edges_per_photo") = 0, py::arg("threads") = 0, py::arg("progress") = py::none(),
+		py::arg("edges_per_photo") = 0, py::arg("threads") = 0, py::arg("f_number") = py::none(), py::arg("stopped") = std::vector<AtStop>(), py::arg("progress") = py::none(),
 		"untilted: files; tilted: {state: files}; board: '12x9' squares or circles of square_mm; pitch_mm: distance of the sensor's pixels.\n"
+		"stopped: [(state, f_number, files)], photographs of these states at other f-numbers; f_number: of untilted and tilted, else EXIF's.\n"
 		"The other words are those of `tiltcal calibrate --help`. progress: called with every message. Raises tiltcal.Error, which names the\n"
 		"photograph or argument at fault.");
 }

@@ -78,6 +78,8 @@ Json RealLensJson(const Calibration& c, const RealLens& lens)
 	}
 	Put(json, "focal_length", "_mm", lens.focal_length_mm);
 	Put(json, "aperture_diameter", "_mm", lens.aperture_diameter_mm);
+	if (!lens.stop_ratios.empty())
+		json["stops"] = StopsJson(c.task.stops, lens.stop_ratios, lens.aperture_diameter_mm.value);
 	Put(json, "opening_on_axis", "_mm", lens.opening_on_axis_mm);
 	Put(json, "pupil_magnification", "", lens.pupil_magnification);
 	Put(json, "psf_floor_squared", "_px2", lens.psf_floor_squared);

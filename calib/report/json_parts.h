@@ -32,6 +32,20 @@ inline void PutTilt(Json& json, const StateLens& lens)
 	Put(json, "tilt_direction", "_deg", lens.tilt_direction);
 }
 
+/// `aperture_mm`: the reference's diameter.
+inline Json StopsJson(const std::vector<Stop>& stops, const std::vector<Estimate>& ratios, double aperture_mm)
+{
+	Json list = Json::array();
+	for (size_t k = 0; k < ratios.size(); ++k)
+	{
+		Json one{ { "f_number", stops[k].f_number } };
+		Put(one, "ratio", "", ratios[k]);
+		one["aperture_diameter_mm"] = aperture_mm * ratios[k].value;
+		list.push_back(one);
+	}
+	return list;
+}
+
 /// Null for what was not found out.
 inline Json PositiveOrNull(double x) { return std::isfinite(x) && x > 0 ? Json(x) : Json(); }
 

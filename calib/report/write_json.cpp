@@ -35,12 +35,14 @@ Json RotationRows(const Pose& pose)
 	return rows;
 }
 
-Json PhotoJson(const Photo& photo, const Geometry& g, size_t s, size_t p)
+Json PhotoJson(const std::vector<Stop>& stops, const Photo& photo, const Geometry& g, size_t s, size_t p)
 {
 	Json json;
 	const Pose& pose = g.states[s].poses[p];
 	const Pose& sigma = g.states[s].pose_sigmas[p];
 	json["file"] = photo.file;
+	if (!stops.empty())
+		json["f_number"] = stops[photo.stop].f_number;
 	json["rotation"] = RotationRows(pose);
 	json["rotation_sigma_deg"] = { sigma[0] * DEGREES, sigma[1] * DEGREES, sigma[2] * DEGREES };
 	json["translation_mm"] = { pose[3], pose[4], pose[5] };
@@ -89,7 +91,7 @@ Json StateJson(const Calibration& c, const Solution& solution, const Geometry& g
 	json["chosen_by_power"] = lens.chosen_by_power;
 	json["photos"] = Json::array();
 	for (size_t p = 0; p < state.photos.size(); ++p)
-		json["photos"].push_back(PhotoJson(state.photos[p], g, s, p));
+		json["photos"].push_back(PhotoJson(c.task.stops, state.photos[p], g, s, p));
 	return json;
 }
 
@@ -121,6 +123,8 @@ Json SolutionJson(const Calibration& c, const Solution& solution, const Geometry
 	Put(json, "focal_length", "_mm", solution.focal_length);
 	PutFocus(json, solution.states[0]);
 	Put(json, "aperture_diameter", "_mm", { camera.aperture_diameter_mm, camera.sigma.aperture_diameter_mm });
+	if (!solution.stop_ratios.empty())
+		json["stops"] = StopsJson(c.task.stops, solution.stop_ratios, camera.aperture_diameter_mm);
 	PutPrincipalPoint(json, camera);
 	for (size_t k = 0; k < 5; ++k)
 	{

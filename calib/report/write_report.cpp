@@ -83,6 +83,17 @@ std::string ModelLine(const Solution& s)
 		PlusMinus(s.aperture_diameter, 3), FocusWords(InverseFocus(s.states[0])).value_or(PlusMinus(s.focus_distance, 1) + " mm"), PlusMinus(s.focal_length, 3), s.psf_floor_px.value);
 }
 
+/// A line for each stop; of the answer.
+std::string StopLines(const Calibration& c)
+{
+	const std::vector<Estimate>& ratios = c.StopRatios();
+	std::string out = ratios.empty() ? "" : "\nstops, of one lens:\n";
+	for (size_t k = 0; k < ratios.size(); ++k)
+		out += fmt::format("  f/{:<4g} {:.3f} mm{}\n", c.task.stops[k].f_number, ratios[k].value * c.ApertureOfStops().value,
+			k ? fmt::format(", {} of f/{:g}; the f-numbers say {:.4f}", PlusMinus(ratios[k], 4), c.task.stops[0].f_number, c.task.stops[0].f_number / c.task.stops[k].f_number) : "");
+	return out;
+}
+
 std::string PerMetre(const Estimate& e) { return fmt::format("{:.3f} +- {:.3f}", 1000 * e.value, 1000 * e.sigma); }
 
 std::string CurvatureLine(const Solution& s)
@@ -248,6 +259,7 @@ std::string SummaryTable(const Calibration& c)
 	out += fmt::format("; blur {:.3f} px RMS\n", c.solution.rms_blur);
 	if (c.solution.model == Model::CURVED)
 		out += CurvatureLine(c.solution);
+	out += StopLines(c);
 	if (!c.effects.empty())
 		out += EffectsText(c);
 	if (!c.blur_alone.empty() && c.task.states.size() > 1)

@@ -42,6 +42,7 @@ struct BlurCost
 };
 
 using BlurCostFunction = ceres::AutoDiffCostFunction<BlurCost, 1, 1, 1, 1, 2, 3>;
+const OpeningNumbers BY_APERTURE{ 0, 0 };
 
 void Build(const BlurFit& fit, ceres::Problem& problem, Unknowns& x, Free free, size_t state)
 {
@@ -50,9 +51,13 @@ void Build(const BlurFit& fit, ceres::Problem& problem, Unknowns& x, Free free, 
 		if (free != Free::EVERYTHING && o.state != state)
 			continue;
 		const double weight = 1 / std::hypot(o.sigma, fit.model_sigma);
-		problem.AddResidualBlock(new BlurCostFunction(new BlurCost{ fit.model, o, weight, fit.w_mm }),
-			new ceres::HuberLoss(2.0), &x.d, &x.floor_squared, &x.power, x.curvature.data(), x.state[o.state].data());
+		ceres::CostFunction* const cost = new BlurCostFunction(new BlurCost{ fit.model, o, weight, fit.w_mm });
+		AddAtStop(cost, BY_APERTURE, new ceres::HuberLoss(2.0), { &x.d, &x.floor_squared, &x.power, x.curvature.data(), x.state[o.state].data() }, o.stop, x.stops, problem);
 	}
+	if (free == Free::EVERYTHING)
+		AddStopPriors(fit.stops, x.stops, problem);
+	else
+		HoldStops(x.stops, problem);
 	if (!fit.priors.empty() && (free == Free::EVERYTHING || state == 0) && problem.HasParameterBlock(x.state[0].data()))
 	{
 		double* const w = const_cast<double*>(&fit.w_mm);   // held
@@ -101,7 +106,9 @@ Eigen::MatrixXd PlanesByUnknowns(LensModel model, const Unknowns& x, double w_mm
 	using Number = LensCovariance::Number;
 	using Jet = ceres::Jet<double, 5>;
 	const size_t states = x.state.size();
-	Eigen::MatrixXd J = Eigen::MatrixXd::Zero(LensCovariance::Size(states), UnknownIndex::OfState(states));
+	Eigen::MatrixXd J = Eigen::MatrixXd::Zero(LensCovariance::Size(states, x.stops.Further()), UnknownIndex::Size(x));
+	for (size_t k = 1; k <= x.stops.Further(); ++k)
+		J(LensCovariance::OfStop(states, k).index, UnknownIndex::OfState(states) + int(k) - 1) = 1;
 	J(At(Number::IMAGE_DISTANCE).index, UnknownIndex::W) = 1;
 	J(At(Number::APERTURE_DIAMETER).index, UnknownIndex::D) = 1;
 	J(At(Number::FLOOR_SQUARED).index, UnknownIndex::FLOOR_SQUARED) = 1;
@@ -136,7 +143,7 @@ std::vector<Observation> Observe(const Task& task, const Geometry& g)
 	ForEachEdge(task, [&](size_t s, size_t p, const Edge& e)
 	{
 		const Vec3<double> P = EdgeInCamera(task, g.states[s].poses[p], e);
-		all.push_back({ s, p, P, EdgeGradient(g, s, P, e), e.blur, e.blur_sigma });
+		all.push_back({ s, p, P, EdgeGradient(g, s, P, e), e.blur, e.blur_sigma, task.states[s].photos[p].stop });
 	});
 	return all;
 }
@@ -144,7 +151,8 @@ std::vector<Observation> Observe(const Task& task, const Geometry& g)
 double BlurFit::Residual(const Observation& o, const Unknowns& x) const
 {
 	double r = 0;
-	BlurCost{ model, o, 1, w_mm }(&x.d, &x.floor_squared, &x.power, x.curvature.data(), x.state[o.state].data(), &r);
+	const double d = x.d * x.stops.Ratio(o.stop);
+	BlurCost{ model, o, 1, w_mm }(&d, &x.floor_squared, &x.power, x.curvature.data(), x.state[o.state].data(), &r);
 	return r;
 }
 
@@ -191,9 +199,11 @@ LensCovariance BlurFit::Covariance(Unknowns x, double w_sigma_mm) const
 	std::vector<const double*> blocks{ &x.d, &x.floor_squared, &x.power, x.curvature.data() };
 	for (StateNumbers& state : x.state)
 		blocks.push_back(state.data());
+	for (const double* stop : x.stops.Blocks())
+		blocks.push_back(stop);
 	if (!covariance.Compute(blocks, &problem))
 		throw Refused("the blur does not determine the lens: photograph inclined boards whose blur differs clearly from one end to the other");
-	const int n = UnknownIndex::OfState(x.state.size()) - 1;   // all but w
+	const int n = UnknownIndex::Size(x) - 1;   // all but w
 	Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> c(n, n);
 	covariance.GetCovarianceMatrix(blocks, c.data());
 	int free_unknowns = 0;

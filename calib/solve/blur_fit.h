@@ -8,6 +8,7 @@
 #include <tiltcal/calibration.h>
 #include "model/lens_model.h"
 #include "solve/lens_covariance.h"
+#include "solve/stop_ratios.h"
 
 #include <Eigen/Core>
 #include <ceres/problem.h>
@@ -25,6 +26,7 @@ struct Observation
 	Vec3<double> P;       // camera frame, mm
 	Vec3<double> gradient;   // footprint.h, px/mm
 	double blur, sigma;   // px
+	size_t stop = 0;      // of the task
 };
 
 /// Every edge of the task, placed by `geometry`'s poses.
@@ -38,6 +40,7 @@ struct Unknowns
 	std::array<double, 2> curvature{ 0, 0 };   // footprint.h, 1/mm; BOWL: the first, BOWLS: both
 	std::vector<StateNumbers> state;
 	bool untilted_free = false;   // state 0 has a tilt too
+	StopRatios stops;
 };
 
 /// Which unknowns move in a fit.
@@ -45,7 +48,7 @@ enum class Free
 {
 	UNTILTED,    ///< d, floor and the untilted state, on its edges
 	ONE_STATE,   ///< one tilted state's own numbers, on its edges
-	EVERYTHING   ///< field curvature too, which the others hold
+	EVERYTHING   ///< field curvature and the further stops too, which the others hold
 };
 
 /// Holds what the model does not have, and what the untilted state keeps at 0, of a problem's blocks.
@@ -64,6 +67,8 @@ struct UnknownIndex
 		STATES = CURVATURE + 2
 	};
 	static int OfState(size_t state) { return STATES + 3 * static_cast<int>(state); }
+	/// Of all of them: the states and, last, the further stops.
+	static int Size(const Unknowns& x) { return OfState(x.state.size()) + static_cast<int>(x.stops.Further()); }
 };
 
 /// What LensCovariance holds, by w (mm) and the unknowns in the order of UnknownIndex; automatic derivatives.
@@ -79,6 +84,7 @@ struct BlurFit
 	double w_mm;
 	double model_sigma;    ///< px: what the model leaves out, common to all edges
 	const std::vector<Prior>& priors;
+	const std::vector<Stop>& stops;
 
 	/// Predicted minus measured, px.
 	double Residual(const Observation& o, const Unknowns& x) const;

@@ -220,10 +220,13 @@ Task WithoutEdgeBias(const Task& measured, const Geometry& g, const Solution& so
 	{
 		const StateGeometry& own = g.states[s];
 		const double C = solution.field_curvature.value;
-		const Camera camera{ MakePicture(g.w_px, g.distortion.data(), own.principal_point.data(), own.lens_normal), g.distortion.data(), solution.states[s].q, C,
-			solution.tangential_curvature.value - C, 0.5 * solution.aperture_diameter.value, solution.psf_floor_squared.value };
+		Camera camera{ MakePicture(g.w_px, g.distortion.data(), own.principal_point.data(), own.lens_normal), g.distortion.data(), solution.states[s].q, C,
+			solution.tangential_curvature.value - C, 0, solution.psf_floor_squared.value };
 		for (size_t p = 0; p < task.states[s].photos.size(); ++p)
+		{
+			camera.radius = 0.5 * solution.ApertureOf(task.states[s].photos[p]);
 			Correct(task, camera, own.poses[p], task.states[s].photos[p]);
+		}
 	}
 	return task;
 }

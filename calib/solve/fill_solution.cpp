@@ -79,6 +79,8 @@ void FillSolution(const Task& task, const Geometry& g, const BlurFit& fit, const
 		FillStateLens(planes[s], w, c.OfPlaneAndImageDistance(s), lens);
 		out.states.push_back(lens);
 	}
+	for (size_t k = 0; k < task.stops.size(); ++k)
+		out.stop_ratios.push_back({ x.stops.Ratio(k), k ? x.stops.Ratio(k) * c.Sigma(LensCovariance::OfStop(x.state.size(), k)) : 0 });
 	double total = 0;
 	for (const Observation& o : fit.observations)
 	{
@@ -118,6 +120,8 @@ void WidenSigmas(const Solution& by_photographs, Solution& out)
 		&Solution::psf_floor_squared, &Solution::field_curvature, &Solution::tangential_curvature, &Solution::sagittal_curvature });
 	for (size_t s = 0; s < out.states.size(); ++s)
 		WidenSigmas(by_photographs.states[s], out.states[s]);
+	for (size_t k = 0; k < out.stop_ratios.size(); ++k)
+		out.stop_ratios[k].sigma = std::max(out.stop_ratios[k].sigma, by_photographs.stop_ratios[k].sigma);
 	const NamedCovariance& c = by_photographs.covariance;
 	for (const std::string& name : out.covariance.names)
 	{

@@ -40,7 +40,7 @@ HeldOut HoldOut(const BlurFit& fit, const Unknowns& x, double most)
 			std::vector<Observation> others, own;
 			for (const Observation& o : fit.observations)
 				(o.state == state && o.photo == photo ? own : others).push_back(o);
-			const BlurFit reduced{ fit.model, others, fit.w_mm, fit.model_sigma, fit.priors };
+			const BlurFit reduced{ fit.model, others, fit.w_mm, fit.model_sigma, fit.priors, fit.stops };
 			Unknowns y = x;
 			if (!reduced.Minimise(y, Free::EVERYTHING, 0))
 				return { HUGE_VAL, {} };

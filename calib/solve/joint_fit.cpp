@@ -35,11 +35,14 @@ EdgeBlocks<double> BlocksOf(Geometry& g, Unknowns& x, size_t s, size_t p)
 		&x.d, &x.floor_squared, &x.power, x.curvature.data(), x.state[s].data(), &state.lens_centre.x, &g.pupil_magnification };
 }
 
+/// Of the blocks for a problem.
+const OpeningNumbers BY_APERTURE{ 4, 0 };
+
 /// The same for a problem.
 std::vector<double*> Pointers(const EdgeBlocks<double>& b)
 {
 	std::vector<double*> all;
-	for (const double* block : { b.w_px, b.distortion, b.principal_point, b.pose, b.d, b.floor_squared, b.power, b.curvature, b.state, b.lens_centre, b.pupil_magnification })
+	for (const double* block : { b.w_px, b.distortion, b.principal_point, b.pose, b.d /* BY_APERTURE */, b.floor_squared, b.power, b.curvature, b.state, b.lens_centre, b.pupil_magnification })
 		all.push_back(const_cast<double*>(block));
 	return all;
 }
@@ -72,10 +75,16 @@ Photographs Build(const JointFit& fit, Geometry& g, Unknowns& x, ceres::Problem&
 		own.group = group;
 		ceres::CostFunction* cost = CostOf(fit, e, g.states[s].lens_normal);
 		// A block of n standard normal residuals has the norm sqrt(n).
-		own.residuals.push_back(problem.AddResidualBlock(cost, new ceres::HuberLoss(2.5 * std::sqrt(double(cost->num_residuals()))), Pointers(BlocksOf(g, x, s, p))));
+		auto* const loss = new ceres::HuberLoss(2.5 * std::sqrt(double(cost->num_residuals())));
+		own.residuals.push_back(AddAtStop(cost, BY_APERTURE, loss, Pointers(BlocksOf(g, x, s, p)), fit.task.states[s].photos[p].stop, x.stops, problem));
 	});
 	if (!fit.geometry_alone)
+	{
 		AddPriors(fit.task.priors, fit.model, { &g.w_px, fit.task.pitch_mm, &x.d, &x.power, x.state[0].data() }, problem);
+		AddStopPriors(fit.task.stops, x.stops, problem);
+	}
+	else
+		HoldStops(x.stops, problem);
 	HoldDistortion(g, problem);
 	HoldUnused(fit.model, x, problem);
 	AddPrincipalPointPriors(fit.task, g, problem);
@@ -120,6 +129,8 @@ std::vector<const double*> LensBlocks(const Geometry& g, const Unknowns& x)
 	std::vector<const double*> blocks{ &g.w_px, &x.d, &x.floor_squared, &x.power, x.curvature.data() };
 	for (const StateNumbers& state : x.state)
 		blocks.push_back(state.data());
+	for (const double* stop : x.stops.Blocks())
+		blocks.push_back(stop);
 	return blocks;
 }
 
@@ -167,7 +178,10 @@ std::vector<std::array<double, 2>> JointFit::Residuals(const Geometry& geometry,
 	ForEachEdge(task, [&](size_t s, size_t p, const Edge& e)
 	{
 		double seen[2] = { 1e9, 1e9 };
-		MakeEdgeModel(task, model, e, g.states[s].lens_normal, geometry_alone).See(BlocksOf(g, y, s, p), seen);
+		EdgeBlocks<double> blocks = BlocksOf(g, y, s, p);
+		const double d = y.d * y.stops.Ratio(task.states[s].photos[p].stop);
+		blocks.d = &d;
+		MakeEdgeModel(task, model, e, g.states[s].lens_normal, geometry_alone).See(blocks, seen);
 		all.push_back({ seen[0], seen[1] - SoftDiameter(e.blur) });
 	});
 	return all;

@@ -15,7 +15,7 @@ namespace tiltcal
 {
 
 /// Of the numbers that people read: w (mm), d (mm), floor^2 (px^2), the two of field curvature (1/mm; model/footprint.h), and
-/// q (1/mm) of every state. Rescaled by the fit's residuals.
+/// q (1/mm) of every state; last the logarithms of the further stops' ratios. Rescaled by the fit's residuals.
 class LensCovariance
 {
 public:
@@ -45,7 +45,10 @@ public:
 	/// Square, in the order of At.
 	explicit LensCovariance(Eigen::MatrixXd matrix) : c(std::move(matrix)) {}
 
-	static int Size(size_t states) { return At(states, Axis::X).index; }
+	/// Of a stop that is not the reference, 0.
+	static At OfStop(size_t states, size_t stop) { return At(Size(states) + static_cast<int>(stop) - 1); }
+
+	static int Size(size_t states, size_t further_stops = 0) { return At(states, Axis::X).index + static_cast<int>(further_stops); }
 
 	double operator()(At a, At b) const { return c(a.index, b.index); }
 	double Variance(At a) const { return c(a.index, a.index); }

@@ -2,6 +2,8 @@
 
 #include "solve/named_covariance.h"
 
+#include <fmt/format.h>
+
 namespace tiltcal
 {
 
@@ -11,7 +13,7 @@ using At = LensCovariance::At;
 
 LensCovariance WithBoardSize(const LensCovariance& c, const Unknowns& x, const std::vector<Vec3<double>>& planes, double relative)
 {
-	const int n = LensCovariance::Size(planes.size());
+	const int n = LensCovariance::Size(planes.size(), x.stops.Further());
 	// What a board larger by 1 does, to first order.
 	Eigen::VectorXd by_size = Eigen::VectorXd::Zero(n);
 	by_size[At(Number::APERTURE_DIAMETER).index] = x.d;
@@ -37,6 +39,8 @@ NamedCovariance Named(const LensCovariance& c, const Task& task)
 	for (size_t s = 0; s < task.states.size(); ++s)
 		for (const auto& [name, axis] : { std::pair("q_x", Axis::X), std::pair("q_y", Axis::Y), std::pair("q_z", Axis::Z) })
 			all.emplace_back(task.states[s].name + "." + name + "_per_mm", At(s, axis));
+	for (size_t k = 1; k < task.stops.size(); ++k)
+		all.emplace_back(fmt::format("stop_f{:g}.log_ratio", task.stops[k].f_number), LensCovariance::OfStop(task.states.size(), k));
 	NamedCovariance named;
 	std::vector<At> kept;
 	for (const auto& [name, at] : all)

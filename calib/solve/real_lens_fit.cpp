@@ -12,7 +12,6 @@
 #include "solve/half_of_edges.h"
 #include "solve/least_squares.h"
 #include "solve/real_lens_edge_cost.h"
-#include "solve/solve_geometry.h"
 
 #include <ceres/ceres.h>
 #include <opencv2/core/utility.hpp>
@@ -158,13 +157,15 @@ void AddWhatIsLikely(const RealLensFit& fit, RealLensNumbers& x, ceres::Problem&
 		AddLikely<RIMS_SIZE>(x.rims.data(), k, fit.rims_about[size_t(k)], SIGMA_OF_LOG_RIM, problem);
 }
 
+const OpeningNumbers EDGE_BY_OPENING{ 3, OPENING, 5 }, LIGHT_BY_OPENING{ 1, OPENING, 3 };
+
 void AddLight(const RealLensFit& fit, RealLensNumbers& x, ceres::Problem& problem, std::vector<PhotographBlocks>& photographs)
 {
 	for (const RealLensExposure& exposure : fit.exposures)
 	{
 		double* const gradient = x.gradients[exposure.lit_alike ? *exposure.photo : 0].data();
-		const ceres::ResidualBlockId id = problem.AddResidualBlock(new RealLensLightCost(exposure.light), nullptr,
-			x.states[exposure.state].data(), x.lens.data(), x.c.data(), x.rims.data(), gradient);
+		const ceres::ResidualBlockId id = AddAtStop(new RealLensLightCost(exposure.light), LIGHT_BY_OPENING, nullptr,
+			{ x.states[exposure.state].data(), x.lens.data(), x.c.data(), x.rims.data(), gradient }, exposure.stop, x.stops, problem);
 		if (!exposure.lit_alike)
 			problem.SetParameterBlockConstant(gradient);
 		if (exposure.photo)
@@ -185,11 +186,16 @@ std::vector<PhotographBlocks> Build(const RealLensFit& fit, const std::vector<Re
 		if (photographs.empty() || photographs.back().pose != pose)
 			photographs.push_back({ {}, pose, s });
 		auto* const cost = new RealLensEdgeCost(edges[k++], 1 / std::hypot(e.offset_sigma, fit.error.offset), 1 / std::hypot(e.blur_sigma, fit.error.blur));
-		photographs.back().residuals.push_back(problem.AddResidualBlock(cost, new ceres::HuberLoss(2.5 * std::sqrt(2.0)), x.states[s].data(), pose, x.centres[s].data(), x.lens.data(), x.c.data(), x.rims.data()));
+		photographs.back().residuals.push_back(AddAtStop(cost, EDGE_BY_OPENING, new ceres::HuberLoss(2.5 * std::sqrt(2.0)),
+			{ x.states[s].data(), pose, x.centres[s].data(), x.lens.data(), x.c.data(), x.rims.data() }, fit.task.states[s].photos[p].stop, x.stops, problem));
 	});
 	if (!x.lens_held)
 		AddLight(fit, x, problem, photographs);
 	AddWhatIsLikely(fit, x, problem);
+	if (x.lens_held)
+		HoldStops(x.stops, problem);
+	else
+		AddStopPriors(fit.task.stops, x.stops, problem);
 	std::vector<int> held;
 	for (int term = 0; term < tilt_lens::AberrationTerms; ++term)
 		if (!x.free[size_t(term)])
@@ -219,6 +225,8 @@ std::vector<const double*> SharedBlocks(const RealLensNumbers& x)
 	std::vector<const double*> blocks{ x.lens.data(), x.c.data(), x.rims.data() };
 	for (const auto& state : x.states)
 		blocks.push_back(state.data());
+	for (const double* stop : x.stops.Blocks())
+		blocks.push_back(stop);
 	return blocks;
 }
 
@@ -259,67 +267,20 @@ std::optional<Eigen::MatrixXd> CovarianceByEdges(ceres::Problem& problem, const 
 
 }
 
-std::vector<tilt_lens::Rim> RealLensNumbers::Rims() const
-{
-	std::vector<tilt_lens::Rim> all;
-	for (size_t k = 0; k < sides.size(); ++k)
-	{
-		const UnitsOfRim<double> unit(r * lens[OPENING], lens[MAGNIFICATION], sides[k]);
-		all.push_back({ unit.radius * std::exp(rims[RIM_SIZE * k + LOG_RADIUS]), sides[k] * unit.distance * std::exp(rims[RIM_SIZE * k + LOG_DISTANCE]) });
-	}
-	return all;
-}
-
-Eigen::VectorXd RealLensNumbers::InARow() const
-{
-	std::vector<double> all;
-	const auto add = [&all](const auto& block) { all.insert(all.end(), block.begin(), block.end()); };
-	add(lens);
-	add(c);
-	add(rims);
-	for (const auto& state : states)
-		add(state);
-	return Eigen::Map<const Eigen::VectorXd>(all.data(), long(all.size()));
-}
-
-RealLensNumbers StartOfRealLens(const Task& task, const Geometry& geometry, const Solution& thin, const std::vector<tilt_lens::Rim>& rims)
-{
-	RealLensNumbers x;
-	x.r = 0.5 * thin.aperture_diameter.value;
-	for (size_t k = 0; k < rims.size() && k < size_t(MOST_RIMS); ++k)
-	{
-		x.sides.push_back(rims[k].distance > 0 ? 1 : -1);
-		x.rims[RIM_SIZE * k + LOG_RADIUS] = std::log(rims[k].radius / x.r);
-		x.rims[RIM_SIZE * k + LOG_DISTANCE] = std::log(std::abs(rims[k].distance) / x.r);
-	}
-	x.gradients.assign(std::max<size_t>(1, task.states[0].photos.size()), { 0, 0 });
-	double power = 0;
-	for (size_t s = 0; s < task.states.size(); ++s)
-	{
-		const StateGeometry& state = geometry.states[s];
-		const Vec3<double> n = state.lens_normal;
-		x.states.push_back({ n.x / n.z, n.y / n.z, geometry.w_px, state.principal_point[0], state.principal_point[1] });
-		x.poses.push_back(state.poses);
-		x.centres.push_back({ 0, 0, 0 });
-		power += 1 / thin.states[s].focal_length.value / double(task.states.size());
-	}
-	x.lens = { power * task.pitch_mm, 1, 1, thin.psf_floor_squared.value };
-	// What the thin lens's own do to its rays, to first order: x (1 + k1 tan^2), and R = v - kappa S with kappa + C tan^2.
-	x.c[tilt_lens::Distortion] = -geometry.distortion[0] * x.r;
-	x.c[tilt_lens::Curvature] = -0.5 * thin.field_curvature.value * x.r * x.r;
-	return x;
-}
-
 std::vector<RealLensEdge> RealLensFit::EdgesAbout(const RealLensNumbers& x) const
 {
 	struct Place { size_t state, photo; const Edge* edge; };
 	std::vector<Place> places;
 	ForEachEdge(task, [&](size_t s, size_t p, const Edge& e) { places.push_back({ s, p, &e }); });
+	const std::vector<RealLensNumbers> seen = x.AtEveryStop();
 	std::vector<std::optional<RealLensEdge>> made(places.size());
 	cv::parallel_for_(cv::Range(0, int(places.size())), [&](const cv::Range& range)
 	{
 		for (int k = range.start; k < range.end; ++k)
-			made[size_t(k)] = EdgeOf(*this, *places[size_t(k)].edge, x, places[size_t(k)].state, places[size_t(k)].photo);
+		{
+			const Place& at = places[size_t(k)];
+			made[size_t(k)] = EdgeOf(*this, *at.edge, seen[task.states[at.state].photos[at.photo].stop], at.state, at.photo);
+		}
 	});
 	std::vector<RealLensEdge> edges;
 	for (auto& edge : made)
@@ -330,10 +291,12 @@ std::vector<RealLensEdge> RealLensFit::EdgesAbout(const RealLensNumbers& x) cons
 std::vector<std::array<double, 2>> RealLensFit::Residuals(const std::vector<RealLensEdge>& edges, const RealLensNumbers& x) const
 {
 	std::vector<std::array<double, 2>> all;
+	const std::vector<RealLensNumbers> at_stops = x.AtEveryStop();
 	ForEachEdge(task, [&](size_t s, size_t p, const Edge&)
 	{
 		double seen[2];
-		edges[all.size()].See(x.states[s].data(), x.PoseOf(s, p).data(), x.centres[s].data(), x.lens.data(), x.c.data(), x.rims.data(), seen);
+		const RealLensNumbers& own = at_stops[task.states[s].photos[p].stop];
+		edges[all.size()].See(x.states[s].data(), x.PoseOf(s, p).data(), x.centres[s].data(), own.lens.data(), x.c.data(), own.rims.data(), seen);
 		all.push_back({ seen[0], seen[1] });
 	});
 	return all;
@@ -374,7 +337,8 @@ double RealLensFit::ErrorOfLight(const RealLensNumbers& x) const
 	{
 		const RealLensPatches& light = exposure.light;
 		const size_t n = light.patches.size();
-		Eigen::VectorXd r = light.See(x.states[exposure.state].data(), x.lens.data(), x.c.data(), x.rims.data(), x.gradients[exposure.lit_alike ? *exposure.photo : 0].data());
+		const RealLensNumbers own = x.AtStop(exposure.stop);
+		Eigen::VectorXd r = light.See(x.states[exposure.state].data(), own.lens.data(), x.c.data(), own.rims.data(), x.gradients[exposure.lit_alike ? *exposure.photo : 0].data());
 		for (size_t i = 0; i < n; ++i)
 			r[long(i)] *= light.patches[i].weight;
 		r -= light.basis * (light.basis.transpose() * r);

@@ -28,14 +28,18 @@ struct RealLensNumbers
 	double r = 0;                                         ///< mm
 	std::array<double, real_lens::RIMS_SIZE> rims{};      ///< of those that `sides` has
 	RimSides sides;
+	StopRatios stops;
 	std::vector<std::array<double, 2>> gradients;         ///< of the lighting of the photographs that are lit alike, by their number
 	bool rims_free = false;
 	std::array<bool, tilt_lens::AberrationTerms> free{};  ///< which of c the fit may change
 	bool magnification_free = false;
-	bool lens_held = false;                               ///< the lens and the states' tilts
+	bool lens_held = false;                               ///< the lens, its stops and the states' tilts
 
+	/// As a photograph of that stop sees the lens: with its opening, and the rims where they are.
+	RealLensNumbers AtStop(size_t stop) const;
+	std::vector<RealLensNumbers> AtEveryStop() const;
 	std::vector<tilt_lens::Rim> Rims() const;             ///< mm
-	Eigen::VectorXd InARow() const;                       ///< lens, c, rims and the states one after the other
+	Eigen::VectorXd InARow() const;                       ///< lens, c, rims, the states and the logarithms of the further stops one after the other
 	Pose& PoseOf(size_t s, size_t p) { return poses[shared_poses ? 0 : s][p]; }
 	const Pose& PoseOf(size_t s, size_t p) const { return poses[shared_poses ? 0 : s][p]; }
 };

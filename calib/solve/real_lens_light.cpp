@@ -196,7 +196,7 @@ std::vector<RealLensExposure> ExposuresOf(const Task& task, bool shared_poses, d
 		for (size_t p = 0; p < task.states[s].photos.size(); ++p)
 			if (const std::vector<BrightPatch>& white = task.states[s].photos[p].white; white.size() >= FEWEST_PATCHES)
 			{
-				all.push_back({ s, p, shared_poses, blank });
+				all.push_back({ s, p, shared_poses, blank, task.states[s].photos[p].stop });
 				Add(white, &task.board, all.back());
 			}
 	return all;

@@ -64,6 +64,7 @@ struct RealLensExposure
 	std::optional<size_t> photo;     ///< none: a flat field
 	bool lit_alike;                  ///< its gradient is that of the photograph of the same number in the other states
 	RealLensPatches light;
+	size_t stop = 0;                 ///< of the task; a flat field is of the reference
 };
 std::vector<RealLensExposure> ExposuresOf(const Task& task, bool shared_poses, double r, const RimSides& sides);
 

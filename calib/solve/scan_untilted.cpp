@@ -21,7 +21,7 @@ UntiltedGuess Evaluate(const std::vector<DepthBlur>& observations, double w_px, 
 		double ab = 0, aa = 0;
 		for (const DepthBlur& o : observations)
 		{
-			const double a = w_px * std::abs(inverse_focus - 1 / o.z);
+			const double a = w_px * o.opening * std::abs(inverse_focus - 1 / o.z);
 			const double r = round ? std::abs(o.blur - g.diameter * a) : 1;
 			const double weight = 1 / std::max(r, 0.3);
 			ab += weight * a * o.blur;
@@ -30,7 +30,7 @@ UntiltedGuess Evaluate(const std::vector<DepthBlur>& observations, double w_px, 
 		g.diameter = aa > 0 ? ab / aa : 0;
 	}
 	for (const DepthBlur& o : observations)
-		g.cost += std::abs(o.blur - g.diameter * w_px * std::abs(inverse_focus - 1 / o.z));
+		g.cost += std::abs(o.blur - g.diameter * o.opening * w_px * std::abs(inverse_focus - 1 / o.z));
 	g.cost /= double(observations.size());
 	return g;
 }

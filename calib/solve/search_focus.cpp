@@ -135,7 +135,7 @@ void SearchUntilted(const BlurFit& fit, const Task& task, const Geometry& geomet
 	std::vector<DepthBlur> data;
 	for (const Observation& o : fit.observations)
 		if (o.state == 0)
-			data.push_back({ o.P.z, std::max(o.blur, 0.0) });
+			data.push_back({ o.P.z, std::max(o.blur, 0.0), x.stops.Ratio(o.stop) });
 	std::vector<Candidate> candidates;
 	for (const UntiltedGuess& guess : ScanUntilted(data, geometry.w_px))
 	{

@@ -45,7 +45,7 @@ struct Fitted
 /// Fits everything from f.x on, with the common error that the residuals show.
 void Refine(LensModel model, const Task& task, double w_mm, Fitted& f)
 {
-	BlurFit fit{ model, f.observations, w_mm, f.model_sigma, task.priors };
+	BlurFit fit{ model, f.observations, w_mm, f.model_sigma, task.priors, task.stops };
 	for (int round = 0; round < 3; ++round)
 	{
 		if (!fit.Minimise(f.x, Free::EVERYTHING, 0))
@@ -62,8 +62,9 @@ Fitted FitFromNothing(LensModel model, const Task& task, const Geometry& geometr
 	f.observations = Observe(task, geometry);
 	RefuseTooFewEdges(task, f.observations);
 	const double w_mm = geometry.w_px * task.pitch_mm;
-	const BlurFit fit{ model, f.observations, w_mm, f.model_sigma, task.priors };
+	const BlurFit fit{ model, f.observations, w_mm, f.model_sigma, task.priors, task.stops };
 	f.x.state.assign(task.states.size(), StateNumbers{ 0, 0, 0 });
+	f.x.stops = StopRatios(task.stops);
 	SearchUntilted(fit, task, geometry, f.x);
 	f.by_power.assign(task.states.size(), false);
 	for (size_t s = 1; s < task.states.size(); ++s)
@@ -75,7 +76,7 @@ Fitted FitFromNothing(LensModel model, const Task& task, const Geometry& geometr
 
 Solution SolutionOf(LensModel model, Model name, const Task& task, const Geometry& geometry, const Fitted& f)
 {
-	const BlurFit fit{ model, f.observations, geometry.w_px * task.pitch_mm, f.model_sigma, task.priors };
+	const BlurFit fit{ model, f.observations, geometry.w_px * task.pitch_mm, f.model_sigma, task.priors, task.stops };
 	Solution solution;
 	solution.model = name;
 	FillSolution(task, geometry, fit, f.x, fit.Covariance(f.x, geometry.w_px_sigma * task.pitch_mm), solution);
@@ -87,7 +88,7 @@ Solution SolutionOf(LensModel model, Model name, const Task& task, const Geometr
 
 HeldOut LeaveOut(LensModel model, const Task& task, const Geometry& geometry, const Fitted& f, double most)
 {
-	return HoldOut({ model, f.observations, geometry.w_px * task.pitch_mm, f.model_sigma, task.priors }, f.x, most);
+	return HoldOut({ model, f.observations, geometry.w_px * task.pitch_mm, f.model_sigma, task.priors, task.stops }, f.x, most);
 }
 
 void Keep(const HeldOut& held_out, Solution& solution)

@@ -45,6 +45,7 @@ Unknowns UnknownsOf(const Solution& s)
 	x.curvature = { s.field_curvature.value, 0.5 * (s.tangential_curvature.value - s.sagittal_curvature.value) };
 	for (const StateLens& state : s.states)
 		x.state.push_back(StateOfPlane(s.lens, state.q, s.w_mm.value));
+	x.stops = StopRatios(s.stop_ratios);
 	return x;
 }
 
@@ -71,7 +72,7 @@ bool RefineJointly(const Task& task, Refinement kind, Geometry& geometry, Soluti
 	refined.held_out_px = solution.held_out_px;
 	refined.left_out = solution.left_out;
 	const std::vector<Observation> observations = Observe(task, g);
-	Fill(task, g, { solution.lens, observations, g.w_px * task.pitch_mm, fit.error.blur, task.priors }, x, *covariance, refined);
+	Fill(task, g, { solution.lens, observations, g.w_px * task.pitch_mm, fit.error.blur, task.priors, task.stops }, x, *covariance, refined);
 	for (size_t s = 0; s < refined.states.size(); ++s)
 		refined.states[s].chosen_by_power = solution.states[s].chosen_by_power;
 	geometry = g;
@@ -109,7 +110,7 @@ GeometryAlone TiltFromGeometryAlone(const Task& task, const Geometry& geometry, 
 		return {};
 	Solution alone;
 	const std::vector<Observation> observations = Observe(task, g);
-	Fill(task, g, { solution.lens, observations, g.w_px * task.pitch_mm, fit.error.blur, task.priors }, x, *covariance, alone);
+	Fill(task, g, { solution.lens, observations, g.w_px * task.pitch_mm, fit.error.blur, task.priors, task.stops }, x, *covariance, alone);
 	return { alone.states, { g.pupil_magnification, g.pupil_magnification_sigma } };
 }
 

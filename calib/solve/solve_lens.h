@@ -53,6 +53,7 @@ bool CurvatureIsSeen(const Solution& plane, const Solution& curved);
 /// Poses of tilted photographs are those of the untilted photograph of the same number
 /// where `start` shares them, as in the paper, otherwise `start`'s.
 /// `start` gives the first guess; `found` receives stage 1's camera and poses.
+/// It has one aperture: photographs at several stops it fails.
 /// Not an exception but Solution::failure says why it failed: it is also run for comparison.
 Solution SolvePaper(const Task& task, const Geometry& start, Geometry& found);
 
@@ -60,6 +61,7 @@ Solution SolvePaper(const Task& task, const Geometry& start, Geometry& found);
 struct DepthBlur
 {
 	double z, blur;   ///< mm, px
+	double opening = 1;   ///< in those of which the diameter is found
 };
 
 struct UntiltedGuess

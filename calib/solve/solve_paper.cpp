@@ -273,6 +273,11 @@ Solution SolvePaper(const Task& task, const Geometry& start, Geometry& found)
 {
 	Solution solution;
 	solution.model = Model::PAPER;
+	if (!task.stops.empty())
+	{
+		solution.failure = "it has one aperture, and the photographs several: leave out those of further f-numbers";
+		return solution;
+	}
 	try
 	{
 		Solve(task, start, found, solution);

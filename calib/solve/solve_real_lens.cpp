@@ -188,6 +188,8 @@ RealLens Described(const Task& task, const RealLensAnswer& answer, const std::ve
 	found.pupil_magnification = { x.lens[MAGNIFICATION], sigma[MAGNIFICATION] };
 	found.aperture_diameter_mm = { d, std::hypot(2 * x.r * sigma[OPENING], board * d) };
 	found.psf_floor_squared = { x.lens[FLOOR_SQUARED], sigma[FLOOR_SQUARED] };
+	for (size_t k = 0; k < task.stops.size(); ++k)
+		found.stop_ratios.push_back({ x.stops.Ratio(k), k ? x.stops.Ratio(k) * sigma[size_t(PlaceOfState(task.states.size())) + k - 1] : 0 });
 	found.radius_mm = x.r;
 	found.rims = RimsOf(answer, rims, board);
 	for (size_t k = 0; k < found.aberrations_mm.size(); ++k)

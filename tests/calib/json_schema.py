@@ -16,10 +16,12 @@ import jsonschema
 OPTIONAL = {
     "blades", "priors", "correlations", "real_lens", "scene_lens", "held_out_blur_px", "vignetting/optical", "vignetting/optical/rims", "vignetting/optical/second",
     "tilt_told_by/blur_alone", "tilt_told_by/geometry_alone", "board_check", "untilted_check", "photographs/0/fits_state", "photographs/0/same_as",
-    "thin_model", "states/0/thin", "next_photographs",
+    "thin_model", "states/0/thin", "next_photographs", "stops", "render/stops", "real_lens/stops", "scene_lens/stops", "states/0/photos/0/f_number", "render/states/0/photos/0/f_number",
 }
 # Objects whose keys are names, each of which may be missing.
 MAPS = re.compile(r"^(priors|held_out_blur_px|correlations(/.*)?|covariance(/.*)?|sigma_by_photographs|tilt_told_by/(blur|geometry)_alone)$")
+# Lists of two entries at least, which are not shortened to one.
+PAIRS = ("stops",)
 # Lists of words, of any length.
 WORDS = re.compile(r"^next_photographs/(missing|photographs/\d+/states)$")
 
@@ -48,7 +50,7 @@ def validate(schema, files):
 def shortened(value):
     """Lists of objects by their first entry: the others are of the same kind."""
     if isinstance(value, dict):
-        return {key: shortened(v) for key, v in value.items()}
+        return {key: [shortened(v) for v in value[key][:2]] if key in PAIRS else shortened(v) for key, v in value.items()}
     if isinstance(value, list):
         return [shortened(v) for v in (value[:1] if value and isinstance(value[0], dict) else value)]
     return value

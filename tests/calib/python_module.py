@@ -60,6 +60,8 @@ refuses("`count`", lambda: camera.footprint([1, 2, 3], count=0))
 refuses("no state plus9", lambda: found.camera("plus9"))
 refuses("nowhere.jpg", lambda: tiltcal.calibrate(["nowhere.jpg"], {"plus5": [photos / "plus5-1.jpg"]}, **few))
 refuses("plus5 has no photographs", lambda: tiltcal.calibrate([photos / "untilted-1.jpg"], {"plus5": []}, **few))
+refuses("`state` untilted:f_number=N", lambda: tiltcal.calibrate([photos / "untilted-1.jpg"], {}, stopped=[("untilted", 8, [photos / "untilted-2.jpg"])], **few))
+refuses("f_number", lambda: tiltcal.calibrate([photos / "untilted-1.jpg"], {}, f_number=0, **few))
 refuses("`model` 'thin'", lambda: tiltcal.calibrate([photos / "untilted-1.jpg"], {}, **{**few, "model": "thin"}))
 refuses("nowhere.json", lambda: tiltcal.read_camera("nowhere.json"))
 

@@ -127,6 +127,11 @@ struct Solution
 	NamedCovariance covariance;
 	std::vector<LeftOut> left_out;   ///< each photograph in turn
 	std::string failure;     ///< why there is no answer; empty when there is one
+	std::vector<Estimate> stop_ratios;   ///< diameters of Task::stops over the reference's, whose own is 1; empty: one opening for all
+
+	/// Of the opening that a photograph was taken through: over the reference's; and its diameter, mm.
+	double RatioOf(const Photo& photo) const { return photo.stop < stop_ratios.size() ? stop_ratios[photo.stop].value : 1; }
+	double ApertureOf(const Photo& photo) const { return aperture_diameter.value * RatioOf(photo); }
 };
 
 /// The exact models on the same edges, with their held_out_px. rigid and curved may have no answer (failure).
@@ -263,6 +268,7 @@ struct PhotographCheck
 	std::optional<size_t> fits_state;      ///< its blur is that of this other state
 	std::optional<std::pair<size_t, size_t>> same_as;   ///< state and photograph that was measured alike, noise and all
 	bool odd_places = false, odd_blur = false;   ///< it stands out
+	size_t stop = 0;
 };
 
 /// What the corners say of the board's shape: the same fit with a board that need not be as it was told. Nothing else uses it.
@@ -325,6 +331,7 @@ struct RealLens
 	std::string failure;              ///< why there is none; empty when there is one
 	Estimate focal_length_mm, pupil_magnification, aperture_diameter_mm, psf_floor_squared;
 	Estimate opening_on_axis_mm;      ///< what the rims leave of the aperture on the axis, of the light from the point in focus; never more than it
+	std::vector<Estimate> stop_ratios;   ///< as Solution's
 	double radius_mm = 0;             ///< of the entrance pupil, at which the aberrations are stated
 	/// Spherical, coma, astigmatism, curvature, distortion, pupil, and ten of the fifth order, in the order of lens/aberrations.h.
 	std::array<Estimate, 16> aberrations_mm;
@@ -394,6 +401,10 @@ struct Calibration
 	/// The paper's method is solved for comparison only.
 	bool IsJudged() const { return solution.model != Model::PAPER; }
 	Model Answer() const { return RealLensIsUsed() ? Model::LENS : solution.model; }
+
+	/// Of several stops: of what is known best. Six numbers put the focus of a stopped-down lens by their spherical aberration, which stands for the fifth order's too.
+	const std::vector<Estimate>& StopRatios() const { return RealLensIsUsed() ? LensOfScenes().stop_ratios : solution.stop_ratios; }
+	const Estimate& ApertureOfStops() const { return RealLensIsUsed() ? LensOfScenes().aperture_diameter_mm : solution.aperture_diameter; }
 
 	/// Geometry that belongs to the calibration's own solution (the paper has its own).
 	const Geometry& MainGeometry() const { return solution.model == Model::PAPER ? paper_geometry : geometry; }

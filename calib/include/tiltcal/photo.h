@@ -105,6 +105,8 @@ struct Photo
 	int white_saturated = 0;     ///< patches left out because they are clipped
 	bool coloured = false;       ///< the channels differ
 	std::vector<ColourEdge> colours;   ///< of some edges
+	std::optional<double> f_number;    ///< as told with the photograph
+	size_t stop = 0;             ///< which of Task::stops
 };
 
 /// Edge::BlurRatio of the edges of a photograph; all 0 when it has none.

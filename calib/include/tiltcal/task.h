@@ -57,6 +57,17 @@ struct Prior
 	TILTCAL_API std::string Name() const;   ///< "focal_length"
 };
 
+/// How far the logarithm of the ratio of two openings may well lie from what their engraved f-numbers say: those are rounded (f/11 is 11.3, f/3.5 is 3.56), blades
+/// close to some per cent, and wide open is what the rims leave (f/2.83 is sold as f/2.8 or f/2.9).
+const double STOP_SIGMA = 0.05;
+
+/// An opening at which photographs were taken. How wide it is beside the reference is found.
+struct Stop
+{
+	double f_number = 0;           ///< as engraved
+	double log_sigma = STOP_SIGMA; ///< what is known of the logarithm of its ratio to the reference, about that of the f-numbers; of the reference nothing
+};
+
 struct Task
 {
 	Board board;
@@ -67,6 +78,8 @@ struct Task
 	bool untilted_free = false;    ///< the untilted state may be tilted a little: by how much is found, not taken to be 0
 	std::vector<FlatField> flat_fields;
 	FixedBlades blades;            ///< told; nothing measures them
+	/// The widest first: the reference, whose diameter is what a calibration calls the aperture's. Empty: one opening for all photographs.
+	std::vector<Stop> stops;
 };
 
 }

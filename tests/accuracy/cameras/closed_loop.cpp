@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <tuple>
 
 namespace cameras
@@ -90,6 +91,8 @@ void CompareThroughGlass(const Camera& camera, const Calibration& c, Answer& a)
 
 void Compare(const Camera& camera, const Calibration& c, Answer& a)
 {
+	if (c.StopRatios().size() > 1)
+		a.deviations.push_back(Of("stop", camera.f_number / camera.stopped_to, c.StopRatios()[1]));
 	if (!camera.glass.empty())
 		return CompareThroughGlass(camera, c, a);
 	a.deviations.push_back(Of("w", camera.ImageDistance(), c.solution.w_mm));
@@ -139,20 +142,36 @@ void LeaveRoom(Camera& camera, std::vector<std::vector<synthetic::Scene>>& state
 			scene.origin += scene.camera_from_board * Eigen::Vector3d(aside.x(), aside.y(), 0);
 }
 
+std::vector<std::vector<cv::Mat>> TakeAll(const Camera& camera, const std::vector<std::vector<synthetic::Scene>>& states, const synthetic::Pattern& pattern)
+{
+	std::vector<std::vector<cv::Mat>> pictures;
+	for (size_t s = 0; s < states.size(); ++s)
+	{
+		pictures.emplace_back();
+		for (const synthetic::Scene& scene : states[s])
+			pictures.back().push_back(camera.glass.empty() ? synthetic::TakePicture(scene, pattern) : synthetic::TakeTracedPicture(ThroughGlass(camera, s, scene), pattern));
+	}
+	return pictures;
+}
+
 Negatives Photograph(const Camera& camera, unsigned seed)
 {
-	Negatives n{ camera, {} };
+	Negatives n{ camera, {}, {} };
 	std::vector<std::vector<synthetic::Scene>> states = PhotographAll(n.camera, seed);
 	if (!camera.glass.empty())
 		LeaveRoom(n.camera, states);
 	const tiltcal::Board& b = n.camera.board;
 	const synthetic::Pattern pattern = b.IsCheckerboard() ? synthetic::Checkerboard(b.columns, b.rows, b.square_mm)
 		: synthetic::Circles(b.columns, b.rows, b.square_mm, b.circle_diameter_mm, b.kind == tiltcal::TargetKind::ASYMMETRIC_CIRCLES);
-	for (size_t s = 0; s < states.size(); ++s)
+	n.pictures = TakeAll(n.camera, states, pattern);
+	if (camera.stopped_to > 0)
 	{
-		n.pictures.emplace_back();
-		for (const synthetic::Scene& scene : states[s])
-			n.pictures.back().push_back(camera.glass.empty() ? synthetic::TakePicture(scene, pattern) : synthetic::TakeTracedPicture(ThroughGlass(n.camera, s, scene), pattern));
+		Camera stopped = n.camera;
+		stopped.f_number = camera.stopped_to;
+		for (std::vector<synthetic::Scene>& scenes : states)
+			for (synthetic::Scene& scene : scenes)
+				scene.aperture = stopped.Aperture();
+		n.stopped = TakeAll(stopped, states, pattern);
 	}
 	return n;
 }
@@ -161,11 +180,18 @@ Answer CloseTheLoop(const Negatives& n, const Light& light, unsigned seed, const
 {
 	std::filesystem::create_directories(folder);
 	std::vector<tiltcal::StateFiles> states;
+	const auto develop = [&](size_t s, const std::vector<cv::Mat>& pictures, unsigned first, const std::string& end, std::optional<double> f_number)
+	{
+		states.push_back({ s ? "tilted" + std::to_string(s) : "untilted", {}, f_number });
+		for (size_t p = 0; p < pictures.size(); ++p)
+			states.back().files.push_back(Develop(pictures[p], light, unsigned(first + 100 * s + p), folder + "/" + states.back().name + "-" + std::to_string(p) + end));
+	};
+	const bool stops = !n.stopped.empty();
 	for (size_t s = 0; s < n.pictures.size(); ++s)
 	{
-		states.push_back({ s ? "tilted" + std::to_string(s) : "untilted", {} });
-		for (size_t p = 0; p < n.pictures[s].size(); ++p)
-			states.back().files.push_back(Develop(n.pictures[s][p], light, unsigned(seed * 1000 + 100 * s + p), folder + "/" + states.back().name + "-" + std::to_string(p)));
+		develop(s, n.pictures[s], seed * 1000, "", stops ? std::optional(n.camera.f_number) : std::nullopt);
+		if (stops)
+			develop(s, n.stopped[s], seed * 1000 + 50, "-stopped", n.camera.stopped_to);
 	}
 	Answer a;
 	try

@@ -40,6 +40,7 @@ struct Negatives
 {
 	Camera camera;
 	std::vector<std::vector<cv::Mat>> pictures;   ///< by state and photograph
+	std::vector<std::vector<cv::Mat>> stopped;    ///< the same at Camera::stopped_to, or none
 };
 
 Negatives Photograph(const Camera& camera, unsigned seed);

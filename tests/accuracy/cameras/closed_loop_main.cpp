@@ -23,7 +23,7 @@ struct Options
 	std::vector<std::string> refused;
 	int seeds = 1, random = 0, first = 0;
 	std::string work = "closed-loop", out, glass;
-	double focal_length = 0, f_number = 0;
+	double focal_length = 0, f_number = 0, stopped_to = 0;
 	bool table = false;
 	double hold = 0, most = HUGE_VAL;
 
@@ -42,6 +42,8 @@ struct Options
 			words += fmt::format(" --focal-length {:g}", focal_length);
 		if (f_number > 0)
 			words += fmt::format(" --f-number {:g}", f_number);
+		if (stopped_to > 0)
+			words += fmt::format(" --stopped-to {:g}", stopped_to);
 		for (const std::string& light : lights)
 			words += " --light " + light;
 		for (const std::string& name : refused)
@@ -85,6 +87,7 @@ void Run(const Options& o, Camera camera, unsigned pose_seed, std::vector<Result
 		camera.focal_length = o.focal_length;
 	if (o.f_number > 0)
 		camera.f_number = o.f_number;
+	camera.stopped_to = o.stopped_to;
 	Negatives negatives;
 	try
 	{
@@ -124,6 +127,7 @@ try
 	app.add_option("--glass", o.glass, "FILE of a lens prescription: the photographs are traced through it");
 	app.add_option("--focal-length", o.focal_length, "Of all cameras, mm, in place of their own");
 	app.add_option("--f-number", o.f_number, "Of all cameras, in place of their own");
+	app.add_option("--stopped-to", o.stopped_to, "Every board is photographed at this f-number too, and both sets are calibrated together");
 	app.add_option("--work", o.work, "Folder for the photographs");
 	app.add_option("--out", o.out, "Page with the results, Markdown");
 	app.add_option("--hold", o.hold, "Exit code 1 when fewer numbers are inside 2 sigma than a true share of so much leaves once in a thousand by chance")->check(CLI::Range(0.0, 1.0));

@@ -31,6 +31,8 @@ struct Camera
 	/// A prescription's file: the photographs are traced through that glass, scaled to the focal length and stopped to the f-number, which
 	/// tilts about its stop. Poses are then chosen as for the thin lens; k1 has no meaning. Empty: the thin lens.
 	std::string glass{};
+	/// Every board is photographed at this f-number too, without moving; 0: not.
+	double stopped_to = 0;
 
 	double ImageDistance() const;
 	double Aperture() const { return focal_length / f_number; }

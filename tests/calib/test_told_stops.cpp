@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: AGPL-3.0-or-later
+//
+// At which stops photographs were taken: by words, by EXIF, and what is refused.
+
+#include "calibrate/stops_of_photographs.h"
+#include "model/told_state.h"
+
+#include <tiltcal/error.h>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace
+{
+
+using namespace tiltcal;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+TEST(ToldPhotographs, AreAStateAnFNumberAndAPattern)
+{
+	const ToldPhotographs plain = ParseToldPhotographs("plus5=a=b:c-*.png", "--state"), stopped = ParseToldPhotographs("plus5:f_number=5.6=dir=x/*.png", "--state");
+	EXPECT_EQ(plain.state.name, "plus5");
+	EXPECT_FALSE(plain.state.f_number);
+	EXPECT_EQ(plain.pattern, "a=b:c-*.png");
+	EXPECT_EQ(stopped.state.name, "plus5");
+	EXPECT_EQ(stopped.state.f_number.value_or(0), 5.6);
+	EXPECT_EQ(stopped.pattern, "dir=x/*.png");
+}
+
+TEST(ToldPhotographs, OtherWordsAndNumbersAreRefused)
+{
+	for (const char* const text : { "plus5", "plus5:f_number=8", "plus5:f_number" })
+		EXPECT_THAT([&] { ParseToldPhotographs(text, "--state"); }, ThrowsMessage<Error>(HasSubstr("GLOB"))) << text;
+	for (const char* const number : { "0", "-8", "eight", "", "nan", "inf", "8mm" })
+		EXPECT_THAT([&] { ParseToldPhotographs(std::string("plus5:f_number=") + number + "=a", "--state"); }, ThrowsMessage<Error>(HasSubstr("no number above 0"))) << number;
+	EXPECT_THAT([] { ParseToldPhotographs("plus5:aperture=8=a", "--state"); }, ThrowsMessage<Error>(HasSubstr("give f_number=N")));
+}
+
+/// A photograph of a task that was told and whose EXIF says these f-numbers; 0: not.
+Photo Taken(double told, double exif)
+{
+	Photo photo;
+	photo.file = "IMG.jpg";
+	if (told > 0)
+		photo.f_number = told;
+	if (exif > 0)
+		photo.facts.f_number = exif;
+	return photo;
+}
+
+Task Photographed(const std::vector<Photo>& untilted, const std::vector<Photo>& tilted = {})
+{
+	Task task;
+	task.states = { { "untilted", false, untilted }, { "plus5", true, tilted } };
+	SetStops(task, {});
+	return task;
+}
+
+std::vector<size_t> StopsOf(const Task& task)
+{
+	std::vector<size_t> all;
+	for (const State& state : task.states)
+		for (const Photo& photo : state.photos)
+			all.push_back(photo.stop);
+	return all;
+}
+
+TEST(SetStops, TheWidestIsTheReference)
+{
+	const Task task = Photographed({ Taken(8, 0), Taken(2.8, 0) }, { Taken(16, 0), Taken(2.8, 0) });
+	ASSERT_EQ(task.stops.size(), 3u);
+	EXPECT_EQ(task.stops[0].f_number, 2.8);
+	EXPECT_EQ(task.stops[2].f_number, 16);
+	EXPECT_EQ(StopsOf(task), (std::vector<size_t>{ 1, 0, 2, 0 }));
+}
+
+TEST(SetStops, OneFNumberIsNoStop)
+{
+	EXPECT_TRUE(Photographed({ Taken(5.6, 0), Taken(5.6, 5.657) }, { Taken(0, 5.6) }).stops.empty());
+	EXPECT_TRUE(Photographed({ Taken(0, 0) }, { Taken(0, 0) }).stops.empty());
+}
+
+TEST(SetStops, ExifFillsIn)
+{
+	EXPECT_EQ(StopsOf(Photographed({ Taken(2.8, 0) }, { Taken(0, 8), Taken(0, 2.8) })), (std::vector<size_t>{ 0, 1, 0 }));
+	// What is told counts.
+	EXPECT_EQ(StopsOf(Photographed({ Taken(2.8, 4) }, { Taken(8, 4) })), (std::vector<size_t>{ 0, 1 }));
+	// Nothing was told: of all, or of none.
+	EXPECT_EQ(Photographed({ Taken(0, 2.8) }, { Taken(0, 8) }).stops.size(), 2u);
+	EXPECT_TRUE(Photographed({ Taken(0, 2.8) }, { Taken(0, 8), Taken(0, 0) }).stops.empty());
+}
+
+TEST(SetStops, APhotographThatSaysNoneBesideOthersIsRefused)
+{
+	EXPECT_THAT([] { Photographed({ Taken(2.8, 0) }, { Taken(0, 0) }); }, ThrowsMessage<Error>(HasSubstr("give `state` plus5:f_number=N='IMG.jpg'")));
+}
+
+TEST(CheckStops, RefusesWhatIsNone)
+{
+	Task task;
+	task.stops = { { 2.8 }, { 8 } };
+	EXPECT_NO_THROW(CheckStops(task));
+	task.stops = { { 8 }, { 2.8 } };
+	EXPECT_THROW(CheckStops(task), Error);
+	task.stops = { { 2.8 }, { 0 } };
+	EXPECT_THROW(CheckStops(task), Error);
+	task.stops.clear();
+	task.states.resize(1);
+	task.states[0].photos.resize(1);
+	task.states[0].photos[0].stop = 1;
+	EXPECT_THROW(CheckStops(task), Error);
+}
+
+}
