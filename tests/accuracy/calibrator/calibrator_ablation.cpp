@@ -40,24 +40,36 @@ struct Line
 	std::string remark;
 };
 
+/// Of what tells them, or the own ones of the lens for scenes.
+std::vector<tiltcal::StateLens> TiltsOf(const tiltcal::Calibration& c, bool of_scenes)
+{
+	std::vector<tiltcal::StateLens> states;
+	for (size_t s = 0; s < c.solution.states.size(); ++s)
+		states.push_back(of_scenes && c.scene_lens ? c.scene_lens->states[s].lens : c.TiltOf(s));
+	return states;
+}
+
 std::vector<Line> Steps(const tiltcal::Task& task)
 {
 	using tiltcal::Model;
 	using tiltcal::Refinement;
-	const struct { const char* name; tiltcal::Model model; Refinement refinement; } steps[] = {
-		{ "paper", Model::PAPER, Refinement::NONE }, { "rigid", Model::RIGID, Refinement::NONE }, { "plane", Model::PLANE, Refinement::NONE },
-		{ "curved", Model::CURVED, Refinement::NONE }, { "curved, edges", Model::CURVED, Refinement::EDGES }, { "curved, photometric", Model::CURVED, Refinement::PHOTOMETRIC } };
+	const struct { const char* name; tiltcal::Model model; Refinement refinement; bool of_scenes; } steps[] = {
+		{ "paper", Model::PAPER, Refinement::NONE, false }, { "rigid", Model::RIGID, Refinement::NONE, false }, { "plane", Model::PLANE, Refinement::NONE, false },
+		{ "curved", Model::CURVED, Refinement::NONE, false }, { "curved, edges", Model::CURVED, Refinement::EDGES, false }, { "curved, photometric", Model::CURVED, Refinement::PHOTOMETRIC, false },
+		{ "lens: six numbers", Model::LENS, Refinement::EDGES, false }, { "lens for scenes: sixteen", Model::LENS, Refinement::EDGES, true } };
 	std::vector<Line> lines;
+	tiltcal::GeometryAlone geometry;
 	for (const auto& step : steps)
 	{
 		Line line;
 		line.step = step.name;
 		const double start = CpuSeconds();
-		tiltcal::GeometryAlone geometry;
 		try
 		{
-			const tiltcal::Calibration c = tiltcal::Calibrate(task, { step.model, tiltcal::Poses::AUTO, step.refinement });
-			line.states = c.solution.states;
+			tiltcal::CalibrateOptions options{ step.model, tiltcal::Poses::AUTO, step.refinement };
+			options.scene_lens = step.of_scenes;
+			const tiltcal::Calibration c = tiltcal::Calibrate(task, options);
+			line.states = TiltsOf(c, step.of_scenes);
 			geometry = c.geometry_alone;
 		}
 		catch (const tiltcal::Error& e)
@@ -66,9 +78,9 @@ std::vector<Line> Steps(const tiltcal::Task& task)
 		}
 		line.solving = CpuSeconds() - start;
 		lines.push_back(line);
-		if (lines.size() == std::size(steps) && !geometry.states.empty())
-			lines.push_back({ "geometry alone, no blur", geometry.states, 0, fmt::format("pupil magnification {:.3f} +- {:.3f}", geometry.pupil_magnification.value, geometry.pupil_magnification.sigma) });
 	}
+	if (!geometry.states.empty())
+		lines.push_back({ "geometry alone, no blur", geometry.states, 0, fmt::format("pupil magnification {:.3f} +- {:.3f}", geometry.pupil_magnification.value, geometry.pupil_magnification.sigma) });
 	return lines;
 }
 
