@@ -22,12 +22,14 @@ const double FAR_FOCAL_LENGTH = 0.06, FAR_F_NUMBER = 0.2;
 
 const double SAME_PITCH = 0.002;
 
-std::vector<PhotographFacts> FactsOf(const Task& task)
+/// Of those at that stop; none: of all.
+std::vector<PhotographFacts> FactsOf(const Task& task, std::optional<size_t> stop = {})
 {
 	std::vector<PhotographFacts> all;
 	for (const State& state : task.states)
 		for (const Photo& photo : state.photos)
-			all.push_back(photo.facts);
+			if (photo.stop == stop.value_or(photo.stop))
+				all.push_back(photo.facts);
 	return all;
 }
 
@@ -100,15 +102,7 @@ PhotographFacts CommonFacts(const std::vector<PhotographFacts>& all)
 
 PhotographFacts CommonFacts(const Task& task) { return CommonFacts(FactsOf(task)); }
 
-std::optional<double> FNumberOfReference(const Task& task)
-{
-	std::vector<PhotographFacts> all;
-	for (const State& state : task.states)
-		for (const Photo& photo : state.photos)
-			if (photo.stop == 0)
-				all.push_back(photo.facts);
-	return CommonFacts(all).f_number;
-}
+std::optional<double> FNumberOfReference(const Task& task) { return CommonFacts(FactsOf(task, 0)).f_number; }
 
 double PitchFromExif(const std::vector<std::string>& files, const Log& log)
 {

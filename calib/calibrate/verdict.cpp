@@ -201,9 +201,10 @@ private:
 		for (size_t k = 1; k < ratios.size(); ++k)
 		{
 			const Stop &wide = c.task.stops[0], &own = c.task.stops[k];
-			if (std::abs(std::log(ratios[k].value * own.f_number / wide.f_number)) > 3 * own.log_sigma)
+			const double told = RatioByFNumbers(c.task.stops, k);
+			if (std::abs(std::log(ratios[k].value / told)) > 3 * own.log_sigma)
 				Say(Grade::FAIR, fmt::format("the photographs at f/{:g} show {:.3f} of the opening of those at f/{:g}, where the f-numbers say {:.3f}: are the photographs those of these f-numbers?",
-					own.f_number, ratios[k].value, wide.f_number, wide.f_number / own.f_number));
+					own.f_number, ratios[k].value, wide.f_number, told));
 		}
 	}
 
@@ -248,7 +249,7 @@ bool AberrationsAreLeftOver(const Calibration& c) { return c.solution.rms_blur >
 
 Verdict Judge(const Calibration& calibration)
 {
-	if (calibration.solution.model == Model::PAPER)
+	if (!calibration.IsJudged())
 		return {};
 	return Judgement(calibration).Everything();
 }

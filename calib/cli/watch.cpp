@@ -249,6 +249,7 @@ private:
 	/// Flat fields whose files have come, by the states that are there.
 	std::vector<FieldPattern> FieldsThatAreThere(const Task& task) const
 	{
+		const std::vector<std::string> names = NamesOf(run.states);
 		std::vector<FieldPattern> out;
 		for (FieldPattern field : fields)
 		{
@@ -261,7 +262,7 @@ private:
 				continue;
 			}
 			for (size_t s = 0; s < task.states.size(); ++s)
-				if (task.states[s].name == NamesOf(run.states)[field.state])
+				if (task.states[s].name == names[field.state])
 					out.push_back({ s, field.option, field.pattern });
 		}
 		return out;

@@ -5,6 +5,7 @@
 #include <tiltcal/calibrate.h>
 #include <tiltcal/error.h>
 #include "effects/fixed_blades.h"
+#include "effects/rim_fit.h"
 #include "model/names.h"
 #include "solve/held_out_corners.h"
 #include "base/robust.h"
@@ -23,9 +24,6 @@ namespace
 
 /// Below this an effect is not told from noise.
 const double SIGNIFICANT = 2;
-/// Of rims: their radius and distance are searched over all places where a rim could stand, and the best of many is 2 or 3 sigma by chance
-/// (2.4 to 2.9 in simulated cameras without one).
-const double SIGNIFICANT_RIM = 4;
 
 const double NOT_KNOWN = std::numeric_limits<double>::quiet_NaN();
 

@@ -18,6 +18,10 @@ namespace tiltcal
 
 using Rims = std::vector<tilt_lens::Rim>;
 
+/// Below this many sigma a rim is not told from noise: its radius and distance are searched over all places where a rim could stand, and the best of many is 2 or 3 sigma by chance
+/// (2.4 to 2.9 in simulated cameras without one).
+const double SIGNIFICANT_RIM = 4;
+
 class RimFit
 {
 public:

@@ -14,9 +14,6 @@ namespace tiltcal
 namespace
 {
 
-/// As the first rim (effects.cpp): it is the best of many places, too.
-const double SIGNIFICANT = 4;
-
 struct Candidate
 {
 	RimFit fit;        ///< with the sigmas that it leaves over
@@ -82,7 +79,7 @@ Eigen::VectorXd JackknifeSigmas(const TwoRims& two)
 /// Empty: it is kept.
 std::string Against(const SecondRim& v)
 {
-	if (v.sigmas < SIGNIFICANT)
+	if (v.sigmas < SIGNIFICANT_RIM)
 		return fmt::format("{:.1f} sigma: not significant", std::max(0.0, v.sigmas));
 	if (!(v.held_out_with > 0))
 		return "nothing can be left out to be predicted";
@@ -103,13 +100,13 @@ TwoRims TrySecondRim(const RimFit& start, const tilt_lens::Rim& rim, double foca
 	}
 	const Candidate behind = Try(single, one, -1, focal_length), before = Try(single, one, 1, focal_length);
 	// By what is left of the light alone: aberrations shift edges too, and wide open they put both rims of a double Gauss before the lens, where one is behind.
-	const bool is_before = before.sigmas >= SIGNIFICANT && (behind.sigmas < SIGNIFICANT || before.fit.LightSigma() < behind.fit.LightSigma());
+	const bool is_before = before.sigmas >= SIGNIFICANT_RIM && (behind.sigmas < SIGNIFICANT_RIM || before.fit.LightSigma() < behind.fit.LightSigma());
 	const Candidate& best = is_before ? before : behind;
 	Eigen::MatrixXd covariance;
 	result.verdict.sigmas = best.sigmas;
-	if (best.sigmas < SIGNIFICANT || !best.fit.Covariance(best.rims, covariance))
+	if (best.sigmas < SIGNIFICANT_RIM || !best.fit.Covariance(best.rims, covariance))
 	{
-		result.verdict.why = best.sigmas < SIGNIFICANT ? Against(result.verdict) : "one of the two cuts nothing";
+		result.verdict.why = best.sigmas < SIGNIFICANT_RIM ? Against(result.verdict) : "one of the two cuts nothing";
 		return result;
 	}
 	result.rims = best.rims;

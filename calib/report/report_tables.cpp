@@ -109,7 +109,7 @@ Rows CommonRows(const Calibration& c)
 	rows.push_back({ "aperture diameter d", WithSigma(s.aperture_diameter, "mm"), s.stop_ratios.empty() ? "of the effective aperture" : "of the effective aperture, at the widest stop" });
 	for (size_t k = 1; k < s.stop_ratios.size(); ++k)
 		rows.push_back({ fmt::format("opening at f/{:g}", c.task.stops[k].f_number), WithSigma(s.stop_ratios[k], "", 4),
-			fmt::format("of that at f/{:g}; the f-numbers say {:.4f}", c.task.stops[0].f_number, c.task.stops[0].f_number / c.task.stops[k].f_number) });
+			fmt::format("of that at f/{:g}; the f-numbers say {:.4f}", c.task.stops[0].f_number, RatioByFNumbers(c.task.stops, k)) });
 	rows.push_back({ "focal length f", WithSigma(s.focal_length, "mm"), "untilted" });
 	rows.push_back({ "focus distance U", FocusText(s.states[0]), "untilted, along the axis" });
 	if (s.model == Model::CURVED)

@@ -13,8 +13,6 @@ namespace tiltcal
 namespace
 {
 
-double LogByFNumbers(const std::vector<Stop>& stops, size_t stop) { return std::log(stops[0].f_number / stops[stop].f_number); }
-
 struct StopPrior
 {
 	double log_ratio, sigma;
@@ -32,7 +30,7 @@ struct StopPrior
 StopRatios::StopRatios(const std::vector<Stop>& stops)
 {
 	for (size_t k = 1; k < stops.size(); ++k)
-		logs.push_back(LogByFNumbers(stops, k));
+		logs.push_back(std::log(RatioByFNumbers(stops, k)));
 }
 
 StopRatios::StopRatios(const std::vector<Estimate>& ratios)
@@ -117,7 +115,7 @@ ceres::ResidualBlockId AddAtStop(ceres::CostFunction* cost, const OpeningNumbers
 void AddStopPriors(const std::vector<Stop>& stops, StopRatios& ratios, ceres::Problem& problem)
 {
 	for (size_t k = 1; k < stops.size(); ++k)
-		problem.AddResidualBlock(new ceres::AutoDiffCostFunction<StopPrior, 1, 1>(new StopPrior{ LogByFNumbers(stops, k), stops[k].log_sigma }), nullptr, ratios.Block(k));
+		problem.AddResidualBlock(new ceres::AutoDiffCostFunction<StopPrior, 1, 1>(new StopPrior{ std::log(RatioByFNumbers(stops, k)), stops[k].log_sigma }), nullptr, ratios.Block(k));
 }
 
 void HoldStops(StopRatios& ratios, ceres::Problem& problem)

@@ -42,9 +42,8 @@ struct MeasureOptions
 	int threads = 0;
 };
 
-/// Several of one name are one state, photographed at several f-numbers; their photographs follow each other. Where f-numbers differ the task has stops.
-/// Measures every photograph, several at once; the log hears of them in their order, by the caller's thread. States come out in the order given; the first is the untilted one. `pitch_mm`: distance of
-/// the sensor's pixel centres. Throws Error: unreadable, no board, sizes differ, f-numbers told of some photographs and neither told nor in EXIF of others.
+/// Measures every photograph, several at once; the log hears of them in their order, by the caller's thread. States come out in the order given; the first is the untilted one. Several of
+/// one name are one state, photographed at several f-numbers; their photographs follow each other. Where f-numbers differ the task has stops. `pitch_mm`: distance of the sensor's pixel centres. Throws Error: unreadable, no board, sizes differ, f-numbers told of some photographs and neither told nor in EXIF of others.
 TILTCAL_API Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, double pitch_mm, const MeasureOptions& options = {});
 
 /// Measures a photograph of an evenly lit plain surface taken in state `state`. Throws Error: unreadable, of another size, clipped, dark.

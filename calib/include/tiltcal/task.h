@@ -68,6 +68,9 @@ struct Stop
 	double log_sigma = STOP_SIGMA; ///< what is known of the logarithm of its ratio to the reference, about that of the f-numbers; of the reference nothing
 };
 
+/// Of a stop's diameter to that of the reference, stop 0, as the engraved f-numbers say.
+inline double RatioByFNumbers(const std::vector<Stop>& stops, size_t stop) { return stops[0].f_number / stops[stop].f_number; }
+
 struct Task
 {
 	Board board;
