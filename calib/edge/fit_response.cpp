@@ -36,23 +36,38 @@ Eigen::MatrixXd Derivatives(const Eigen::VectorXd& x, double nx, double ny, doub
 {
 	Eigen::MatrixXd by(x.size(), 4);
 	for (Eigen::Index i = 0; i < x.size(); ++i)
-	{
-		const EdgeResponse e = SoftResponse(0.5 * soft, [&](double radius) { return PixelEdgeResponse(x[i], radius, std::abs(nx), std::abs(ny)); });
-		by.row(i) << -e.d_position, 0.5 * e.d_radius, 1 - e.value, e.value;
-	}
+		by.row(i) = ByFit(x[i], nx, ny, soft);
 	return by;
 }
 
+Eigen::MatrixXd PseudoInverse(const Eigen::MatrixXd& m) { return m.colPivHouseholderQr().solve(Eigen::MatrixXd::Identity(m.rows(), m.rows())); }
+
+/// What a change of the light at each sample does to the shapes, beside `by` of the fit.
+Eigen::MatrixXd ToShapes(const Eigen::VectorXd& x, const Eigen::MatrixXd& by, double nx, double ny, double radius)
+{
+	Eigen::MatrixXd all(x.size(), by.cols() + SHAPES);
+	for (Eigen::Index i = 0; i < x.size(); ++i)
+		all.row(i) << by.row(i), ShapeResponse(x[i], radius, std::abs(nx), std::abs(ny)).transpose();
+	return PseudoInverse(all).bottomRows(SHAPES);
 }
 
-FitResponse::FitResponse(double nx, double ny, double diameter, double reach, double own)
+}
+
+Eigen::RowVector4d ByFit(double x, double nx, double ny, double soft)
+{
+	const EdgeResponse e = SoftResponse(0.5 * soft, [&](double radius) { return PixelEdgeResponse(x, radius, std::abs(nx), std::abs(ny)); });
+	return { -e.d_position, 0.5 * e.d_radius, 1 - e.value, e.value };
+}
+
+FitResponse::FitResponse(double nx, double ny, double diameter, double reach, double own, bool shaped)
 {
 	// Discs that are narrower yet are taken to be as narrow as the samples see.
 	const double narrowest = SoftDiameter(4 * reach / MOST_SAMPLES), fitted = SoftDiameter(diameter), told = std::copysign(std::max(std::abs(fitted), narrowest), fitted);
 	const Eigen::VectorXd x = Samples(reach, std::abs(told));
 	const Eigen::Index n = x.size();
 	// What a change of the light at each sample does to the four.
-	const Eigen::MatrixXd pseudo_inverse = Derivatives(x, nx, ny, told).colPivHouseholderQr().solve(Eigen::MatrixXd::Identity(n, n));
+	const Eigen::MatrixXd by = Derivatives(x, nx, ny, told), pseudo_inverse = PseudoInverse(by);
+	const Eigen::MatrixXd to_shapes = shaped ? ToShapes(x, by, nx, ny, 0.5 * diameter) : Eigen::MatrixXd(0, n);
 	const double box_a = Widened(nx, own), box_b = Widened(ny, own), most = reach + box_a + box_b;
 	first = -most;
 	step = 2 * most / (NODES - 1);
@@ -64,6 +79,8 @@ FitResponse::FitResponse(double nx, double ny, double diameter, double reach, do
 		const Eigen::VectorXd change = pseudo_inverse * edge;
 		place.push_back(change[0]);
 		soft.push_back(change[1]);
+		for (Eigen::Index i = 0; i < to_shapes.rows(); ++i)
+			shapes[size_t(i)].push_back(to_shapes.row(i).dot(edge));
 	}
 }
 

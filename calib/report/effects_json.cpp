@@ -112,6 +112,11 @@ Json RealLensJson(const Calibration& c, const RealLens& lens)
 	}
 	json["rms_place_px"] = lens.rms_place;
 	json["rms_blur_px"] = lens.rms_blur;
+	if (lens.rms_shape)
+	{
+		json["rms_asymmetry"] = (*lens.rms_shape)[0];
+		json["rms_hollowness"] = (*lens.rms_shape)[1];
+	}
 	json["held_out"] = PositiveOrNull(lens.held_out);
 	json[lens.fifth_order ? "held_out_six" : "held_out_thin"] = PositiveOrNull(lens.held_out_thin);
 	json["used"] = lens.used;

@@ -90,7 +90,7 @@ std::string StopLines(const Calibration& c)
 	std::string out = ratios.empty() ? "" : "\nstops, of one lens:\n";
 	for (size_t k = 0; k < ratios.size(); ++k)
 		out += fmt::format("  f/{:<4g} {:.3f} mm{}\n", c.task.stops[k].f_number, ratios[k].value * c.ApertureOfStops().value,
-			k ? fmt::format(", {} of f/{:g}; the f-numbers say {:.4f}", PlusMinus(ratios[k], 4), c.task.stops[0].f_number, c.task.stops[0].f_number / c.task.stops[k].f_number) : "");
+			k ? fmt::format(", {} of f/{:g}; the f-numbers say {:.4f}", PlusMinus(ratios[k], 4), c.task.stops[0].f_number, RatioByFNumbers(c.task.stops, k)) : "");
 	return out;
 }
 
@@ -182,6 +182,8 @@ std::string SceneLensText(const Calibration& c)
 {
 	const RealLens& lens = *c.scene_lens;
 	std::string out = fmt::format("  fifth order {} for scenes: places of edges fit to {:.3f} px, their blurs to {:.3f} px", lens.used ? "taken" : "not taken", lens.rms_place, lens.rms_blur);
+	if (lens.rms_shape)
+		out += fmt::format(", their shapes to {:.1f} % of the light", 100 * std::max((*lens.rms_shape)[0], (*lens.rms_shape)[1]));
 	if (lens.held_out > 0 && lens.held_out_thin > 0)
 		out += fmt::format(", photographs left out to {:.2f} of what is usual (six: {:.2f})", lens.held_out, lens.held_out_thin);
 	out += "\n    " + GlassText(lens);

@@ -122,8 +122,8 @@ std::optional<CovarianceByPhotographs> JackknifeOverPhotographs(ceres::Problem& 
 	std::vector<Quadratic> each, predicted;
 	for (const PhotographBlocks& p : photographs)
 	{
-		predicted.push_back(OfPhotograph(problem, p, common.shared, common.size));
-		each.push_back(predicted.back());
+		each.push_back(OfPhotograph(problem, p, common.shared, common.size));
+		predicted.push_back(p.predicted ? OfPhotograph(problem, p, common.shared, common.size, p.predicted) : each.back());
 		each.back() += common.Beside(p);
 		total.H += each.back().H;
 	}

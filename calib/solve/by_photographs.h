@@ -23,6 +23,7 @@ struct PhotographBlocks
 	double* pose = nullptr;
 	size_t group = 0;
 	std::vector<ceres::ResidualBlockId> beside{};   ///< left out with it, but not what is predicted of it; they do not know its pose
+	int predicted = 0;   ///< what is predicted of it: so many numbers of each of its residuals, the first; 0: all
 };
 
 /// Where the numbers of free blocks lie that photographs have in common, one block after the other.

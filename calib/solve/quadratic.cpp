@@ -2,11 +2,13 @@
 
 #include "solve/quadratic.h"
 
+#include <ceres/cost_function.h>
 #include <ceres/crs_matrix.h>
 #include <ceres/manifold.h>
 
 #include <Eigen/Cholesky>
 
+#include <algorithm>
 #include <set>
 
 namespace tiltcal
@@ -21,7 +23,27 @@ Quadratic& Quadratic::operator+=(const Quadratic& q)
 	return *this;
 }
 
-Quadratic Expand(ceres::Problem& problem, const std::vector<ceres::ResidualBlockId>& residuals, const std::vector<double*>& blocks)
+namespace
+{
+
+/// The rows of the first `most` numbers of each residual; 0: of all.
+std::vector<int> RowsOf(const ceres::Problem& problem, const std::vector<ceres::ResidualBlockId>& residuals, int most)
+{
+	std::vector<int> rows;
+	int first = 0;
+	for (const ceres::ResidualBlockId r : residuals)
+	{
+		const int count = problem.GetCostFunctionForResidualBlock(r)->num_residuals();
+		for (int i = 0; i < (most ? std::min(most, count) : count); ++i)
+			rows.push_back(first + i);
+		first += count;
+	}
+	return rows;
+}
+
+}
+
+Quadratic Expand(ceres::Problem& problem, const std::vector<ceres::ResidualBlockId>& residuals, const std::vector<double*>& blocks, int most)
 {
 	ceres::Problem::EvaluateOptions options;
 	options.residual_blocks = residuals;
@@ -29,12 +51,17 @@ Quadratic Expand(ceres::Problem& problem, const std::vector<ceres::ResidualBlock
 	std::vector<double> r;
 	ceres::CRSMatrix J;
 	problem.Evaluate(options, nullptr, &r, nullptr, &J);
-	Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(J.num_rows, J.num_cols);
-	for (int row = 0; row < J.num_rows; ++row)
-		for (int k = J.rows[size_t(row)]; k < J.rows[size_t(row) + 1]; ++k)
-			dense(row, J.cols[size_t(k)]) = J.values[size_t(k)];
-	const Eigen::Map<const Eigen::VectorXd> residual(r.data(), Eigen::Index(r.size()));
-	return { dense.transpose() * dense, dense.transpose() * residual, residual.squaredNorm(), int(r.size()) };
+	const std::vector<int> rows = RowsOf(problem, residuals, most);
+	Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(Eigen::Index(rows.size()), J.num_cols);
+	Eigen::VectorXd residual(dense.rows());
+	for (Eigen::Index i = 0; i < dense.rows(); ++i)
+	{
+		const size_t row = size_t(rows[size_t(i)]);
+		residual[i] = r[row];
+		for (int k = J.rows[row]; k < J.rows[row + 1]; ++k)
+			dense(i, J.cols[size_t(k)]) = J.values[size_t(k)];
+	}
+	return { dense.transpose() * dense, dense.transpose() * residual, residual.squaredNorm(), int(rows.size()) };
 }
 
 Quadratic Reduced(const Quadratic& q, int kept)
@@ -48,12 +75,12 @@ Quadratic Reduced(const Quadratic& q, int kept)
 		q.squares - q.g.tail(own).dot(solve.solve(q.g.tail(own))), q.count };
 }
 
-Quadratic OfPhotograph(ceres::Problem& problem, const PhotographBlocks& photograph, const std::vector<double*>& shared, int size)
+Quadratic OfPhotograph(ceres::Problem& problem, const PhotographBlocks& photograph, const std::vector<double*>& shared, int size, int most)
 {
 	std::vector<double*> blocks = shared;
 	if (!problem.IsParameterBlockConstant(photograph.pose))
 		blocks.push_back(photograph.pose);
-	return Reduced(Expand(problem, photograph.residuals, blocks), size);
+	return Reduced(Expand(problem, photograph.residuals, blocks, most), size);
 }
 
 int TangentSize(const ceres::Problem& problem, const std::vector<double*>& blocks)

@@ -26,14 +26,14 @@ struct Quadratic
 	Quadratic& operator+=(const Quadratic& q);
 };
 
-/// Of these residuals by these blocks.
-Quadratic Expand(ceres::Problem& problem, const std::vector<ceres::ResidualBlockId>& residuals, const std::vector<double*>& blocks);
+/// Of these residuals by these blocks; `most`: of each no more than its first numbers, 0: all.
+Quadratic Expand(ceres::Problem& problem, const std::vector<ceres::ResidualBlockId>& residuals, const std::vector<double*>& blocks, int most = 0);
 
 /// Without the last unknowns, which follow the others.
 Quadratic Reduced(const Quadratic& q, int kept);
 
-/// What a photograph says of the shared blocks, its pose following them. `size`: of their tangent spaces.
-Quadratic OfPhotograph(ceres::Problem& problem, const PhotographBlocks& photograph, const std::vector<double*>& shared, int size);
+/// What a photograph says of the shared blocks, its pose following them. `size`: of their tangent spaces; `most` as of Expand.
+Quadratic OfPhotograph(ceres::Problem& problem, const PhotographBlocks& photograph, const std::vector<double*>& shared, int size, int most = 0);
 
 /// Free blocks that are no photograph's pose, in the order in which residuals name them: Ceres's own order is that of their addresses.
 std::vector<double*> SharedBlocks(const ceres::Problem& problem, const std::vector<ceres::ResidualBlockId>& residuals, const std::vector<PhotographBlocks>& photographs);

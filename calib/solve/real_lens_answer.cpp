@@ -48,13 +48,8 @@ void KeepRims(double m, RealLensNumbers& x)
 /// Rounds, each built about the last one's answer, which knows better what the lens leaves out; so many, and a few more until the last is true about its own. False: none is, or no convergence.
 bool GoRounds(RealLensFit& fit, RealLensNumbers& x, std::vector<RealLensEdge>& edges, int rounds)
 {
-	const auto learn = [&]
-	{
-		fit.error = ErrorOf(fit.Residuals(edges, x));
-		fit.LearnLight(x);
-	};
 	bool done = false;
-	learn();
+	fit.LearnErrors(edges, x);
 	for (int round = 0; round < rounds + FURTHER_ROUNDS && !done; ++round)
 	{
 		const bool last = round + 1 >= rounds;
@@ -65,7 +60,7 @@ bool GoRounds(RealLensFit& fit, RealLensNumbers& x, std::vector<RealLensEdge>& e
 		if (fit.rims_know_pupils)
 			KeepRims(m, x);
 		edges = fit.EdgesAbout(x);
-		learn();
+		fit.LearnErrors(edges, x);
 		done = last && IsTrueAbout(led, fit.error);
 	}
 	return done;
@@ -75,6 +70,8 @@ RealLensAnswer AnswerOf(const RealLensFit& fit, const std::vector<RealLensEdge>&
 {
 	RealLensAnswer answer;
 	answer.error = fit.error;
+	if (std::any_of(edges.begin(), edges.end(), [](const RealLensEdge& edge) { return edge.shape.has_value(); }))
+		answer.shape_error = fit.shape_error;
 	answer.residuals = fit.Residuals(edges, x);
 	answer.judged = judged;
 	answer.numbers = x;
@@ -143,12 +140,12 @@ double SlopeOfCorners(const Task& task, const RealLensNumbers& x)
 	return steepest;
 }
 
-/// Of the fifth-order numbers that are free and are not significant, the one that is least.
+/// Of the numbers that are free and are not significant, the one that is least.
 std::optional<int> LeastSignificant(const RealLensFit::Judged& judged, const RealLensNumbers& x)
 {
 	double least = SIGNIFICANT;
 	std::optional<int> term;
-	for (int k = tilt_lens::ThirdOrderTerms; k < tilt_lens::AberrationTerms; ++k)
+	for (int k = 0; k < tilt_lens::AberrationTerms; ++k)
 		if (x.free[size_t(k)])
 			if (const double sigmas = std::abs(x.c[size_t(k)]) / std::sqrt(judged.Variance(LENS_SIZE + k)); sigmas < least)
 			{
@@ -158,7 +155,7 @@ std::optional<int> LeastSignificant(const RealLensFit::Judged& judged, const Rea
 	return term;
 }
 
-/// Holds the fifth-order numbers that are not significant at 0, one after the other, each time fitted anew. None: no convergence, or singular.
+/// Holds the numbers that are not significant at 0, one after the other, each time fitted anew. None: no convergence, or singular.
 std::optional<RealLensFit::Judged> KeepSignificant(RealLensFit& fit, std::vector<RealLensEdge>& edges, RealLensNumbers& x)
 {
 	for (;;)
@@ -220,6 +217,7 @@ std::optional<RealLensAnswer> SolveSceneLens(const Task& task, const Geometry& g
 	// where no board was it grows with the fifth power of the slope: rims cut black corners by it.
 	x.free[tilt_lens::Fifth_PPP] = false;
 	RealLensFit fit{ task, FINE };
+	fit.shapes = true;
 	fit.rims_about = x.rims;
 	if (!x.sides.empty())
 		fit.exposures = ExposuresOf(task, geometry.shared_poses, x.r, x.sides);

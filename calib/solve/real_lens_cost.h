@@ -6,6 +6,7 @@
 #ifndef TILTCAL_REAL_LENS_COST_H
 #define TILTCAL_REAL_LENS_COST_H
 
+#include "edge/edge_shape.h"
 #include "edge/fit_response.h"
 #include "lens/aberrations.h"
 #include "lens/optics.h"
@@ -101,9 +102,13 @@ inline std::array<T, 2> OnBoard(const T* pose, const T* R, const T* centre, cons
 	return { along(0, from) + reach * along(0, direction), along(1, from) + reach * along(1, direction) };
 }
 
-/// Place (px, across the edge, bright side positive) and soft blur diameter by the lens, minus what was measured.
+/// Place (px, across the edge, bright side positive), soft blur diameter and shape by the lens, minus what was measured.
 struct RealLensEdge
 {
+	/// Place, soft diameter and, where it was measured, the shape.
+	static constexpr int SEEN = 2 + SHAPES;
+	using Seen = std::array<double, SEEN>;
+
 	double X, Y;                     ///< board, mm
 	bool along_columns;              ///< the edge is a line of constant Y, else of constant X
 	double u, v, nx, ny;             ///< in the picture: place and unit normal, dark to bright, y down
@@ -116,7 +121,8 @@ struct RealLensEdge
 	std::vector<double> px_per_mm;   ///< how far the crossing lies in the picture per mm on the board, of every point
 	/// The points are those that these rims leave; what other rims do to place and soft diameter, to first order.
 	std::array<double, real_lens::RIMS_SIZE> at_rims{};
-	std::array<std::array<double, real_lens::RIMS_SIZE>, 2> by_rims{};
+	std::array<std::array<double, real_lens::RIMS_SIZE>, SEEN> by_rims{};
+	std::optional<EdgeShape> shape{};   ///< as measured, with what the opening's few points make of the shape of a disc
 
 	/// On the board, mm from the edge's line, of the ray through a point of the opening.
 	template<typename T>
@@ -128,6 +134,8 @@ struct RealLensEdge
 		const std::array<T, 2> at = OnBoard(pose, R, centre, origin, direction);
 		return along_columns ? at[1] - T(Y) : at[0] - T(X);
 	}
+
+	int CountOfSeen() const { return shape ? SEEN : 2; }
 
 	template<typename T>
 	bool See(const T* state, const T* pose, const T* centre, const T* lens, const T* c, const T* rims, T* seen) const
@@ -143,16 +151,22 @@ struct RealLensEdge
 			crossing.push_back(-FromLine(mounted, pose, R, centre, lens, points[k]) * T(px_per_mm[k]));
 			middle += T(points[k].weight) * crossing.back();
 		}
-		T place = middle, soft(0);
+		T place = middle, soft(0), shapes[SHAPES];
+		for (int i = 0; shape && i < SHAPES; ++i)
+			shapes[i] = T(-shape->value[size_t(i)]);
 		for (size_t k = 0; k < points.size(); ++k)
 		{
 			const T x = crossing[k] - middle;
 			place += T(points[k].weight) * Chained(x, response.Place(ValueOf(x)));
 			soft += T(points[k].weight) * Chained(x, response.Soft(ValueOf(x)));
+			for (int i = 0; shape && i < SHAPES; ++i)
+				shapes[i] += T(points[k].weight) * Chained(x, response.ShapeOf(Shape(i), ValueOf(x)));
 		}
 		seen[0] = place;
 		seen[1] = soft - T(soft_of_disc) + T(soft_by_floor) * (lens[real_lens::FLOOR_SQUARED] - T(floor_in_response));
-		for (size_t i = 0; i < 2; ++i)
+		for (int i = 2; i < CountOfSeen(); ++i)
+			seen[i] = shapes[i - 2];
+		for (size_t i = 0; i < size_t(CountOfSeen()); ++i)
 			for (size_t k = 0; k < at_rims.size(); ++k)
 				seen[i] += T(by_rims[i][k]) * (rims[k] - T(at_rims[k]));
 		return true;

@@ -79,12 +79,20 @@ private:
 
 }
 
+RealLensEdgeCost::RealLensEdgeCost(const RealLensEdge& of, const RealLensEdge::Seen& weights) : edge(of), weight(weights)
+{
+	set_num_residuals(edge.CountOfSeen());
+	mutable_parameter_block_sizes()->assign(std::begin(SIZES), std::end(SIZES));
+	mutable_parameter_block_sizes()->push_back(RIMS_SIZE);
+}
+
 bool RealLensEdgeCost::Evaluate(double const* const* parameters, double* residuals, double** jacobians) const
 {
 	const double *const state = parameters[STATE_BLOCK], *const pose = parameters[POSE_BLOCK], *const centre = parameters[CENTRE_BLOCK], *const lens = parameters[LENS_BLOCK],
 		*const c = parameters[C_BLOCK];
 	edge.See(state, pose, centre, lens, c, parameters[RIMS_BLOCK], residuals);
-	for (int i = 0; i < 2; ++i)
+	const size_t seen = size_t(num_residuals());
+	for (size_t i = 0; i < seen; ++i)
 		residuals[i] *= weight[i];
 	if (!jacobians)
 		return true;
@@ -104,23 +112,27 @@ bool RealLensEdgeCost::Evaluate(double const* const* parameters, double* residua
 		middle += w * crossing[k];
 		by_middle += w * by.col(k);
 	}
-	Row of[2] = { by_middle, Row::Zero() };
+	std::array<Row, RealLensEdge::SEEN> of;
+	of.fill(Row::Zero());
+	of[0] = by_middle;
 	for (int k = 0; k < n; ++k)
 	{
 		const double x = crossing[k] - middle, w = edge.points[size_t(k)].weight;
 		const Row moved = by.col(k) - by_middle;
 		of[0] += w * edge.response.Place(x).derivative * moved;
 		of[1] += w * edge.response.Soft(x).derivative * moved;
+		for (int shape = 0; edge.shape && shape < SHAPES; ++shape)
+			of[size_t(2 + shape)] += w * edge.response.ShapeOf(Shape(shape), x).derivative * moved;
 	}
 	of[1][AT_LENS + FLOOR_SQUARED] += edge.soft_by_floor;
-	for (int i = 0; i < 2; ++i)
+	for (size_t i = 0; i < seen; ++i)
 	{
 		int at = 0;
 		for (int block = STATE_BLOCK; block < RIMS_BLOCK; at += SIZES[block++])
 			for (int k = 0; jacobians[block] && k < SIZES[block]; ++k)
-				jacobians[block][i * SIZES[block] + k] = weight[i] * of[i][at + k];
+				jacobians[block][int(i) * SIZES[block] + k] = weight[i] * of[i][at + k];
 		for (int k = 0; jacobians[RIMS_BLOCK] && k < RIMS_SIZE; ++k)
-			jacobians[RIMS_BLOCK][i * RIMS_SIZE + k] = weight[i] * edge.by_rims[size_t(i)][size_t(k)];
+			jacobians[RIMS_BLOCK][int(i) * RIMS_SIZE + k] = weight[i] * edge.by_rims[i][size_t(k)];
 	}
 	return true;
 }

@@ -3,8 +3,6 @@
 #include "solve/real_lens_fit.h"
 
 #include "base/robust.h"
-#include "edge/soft_radius.h"
-#include "model/footprint.h"
 #include "model/thin_lens_of_real.h"
 #include "solve/block_covariance.h"
 #include "solve/by_photographs.h"
@@ -14,7 +12,6 @@
 #include "solve/real_lens_edge_cost.h"
 
 #include <ceres/ceres.h>
-#include <opencv2/core/utility.hpp>
 
 #include <cmath>
 
@@ -25,82 +22,6 @@ namespace
 {
 
 using namespace real_lens;
-
-/// What the sum over the opening's points misses of the mean over the disc that was fitted, whichever way it lies.
-double MissOfDisc(const FitResponse& response, double diameter, Rings rings)
-{
-	const int directions = 12, fine = 400;
-	double coarse = 0, exact = 0;
-	for (int d = 0; d < directions; ++d)
-	{
-		const double a = 2 * M_PI * d / directions, cosine = std::cos(a), sine = std::sin(a);
-		for (const OpeningPoint& p : OpeningPoints(rings))
-			coarse += p.weight * response.Soft(0.5 * diameter * (p.x * cosine + p.y * sine)).value / directions;
-	}
-	// Chebyshev's points of the second kind: the chords of a disc are their weights.
-	for (int k = 1; k <= fine; ++k)
-	{
-		const double a = M_PI * k / (fine + 1);
-		exact += 2 * std::sin(a) * std::sin(a) / (fine + 1) * response.Soft(0.5 * diameter * std::cos(a)).value;
-	}
-	return coarse - exact;
-}
-
-RealLensEdge EdgeOf(const RealLensFit& fit, const Edge& e, const RealLensNumbers& x, size_t s, size_t p)
-{
-	const Task& task = fit.task;
-	const Point normal = EdgeNormal(e);
-	const double floor_squared = std::max(x.lens[FLOOR_SQUARED], 0.0), squared = SignedSquare(e.blur), h = 0.01;
-	// Edges that were told, not measured, have no pixels.
-	const double reach = e.reach > 0 ? e.reach : 0.7 * std::abs(e.blur) + 3;
-	RealLensEdge edge{ task.board.X(e.board_column), task.board.Y(e.board_row), e.along_columns, e.x, e.y, normal[0], normal[1], x.r, task.pitch_mm,
-		FitResponse(normal[0], normal[1], e.blur, reach, floor_squared / 16), 0, (SoftDiameterOfSquare(squared + h) - SoftDiameterOfSquare(squared - h)) / (2 * h), floor_squared, {}, {} };
-	edge.soft_of_disc = MissOfDisc(edge.response, std::sqrt(std::max(squared - x.lens[FLOOR_SQUARED], 0.0)), fit.rings);
-	const auto mounted = [&](double t) { return MountedLens<double>(x.states[s].data(), x.lens.data(), x.c.data(), x.r, task.pitch_mm, e.x + t * normal[0], e.y + t * normal[1]); };
-	const double step = 0.5;   // px
-	const MountedLens<double> at = mounted(0), before = mounted(-step), behind = mounted(step);
-	const double *const pose = x.PoseOf(s, p).data(), *const centre = x.centres[s].data();
-	double R[9];
-	ceres::AngleAxisToRotationMatrix(pose, R);
-	const auto open = [&](const std::vector<OpeningPoint>& points)
-	{
-		edge.points = points;
-		edge.px_per_mm.clear();
-		for (const OpeningPoint& point : edge.points)
-			edge.px_per_mm.push_back(2 * step / (edge.FromLine(behind, pose, R, centre, x.lens.data(), point) - edge.FromLine(before, pose, R, centre, x.lens.data(), point)));
-	};
-	edge.at_rims = x.rims;
-	if (x.sides.empty())
-	{
-		open(OpeningPoints(fit.rings));
-		return edge;
-	}
-	const OpeningRays rays({ at.lens, x.r * x.lens[OPENING] * x.lens[MAGNIFICATION], at.x, at.y, at.depth, fit.rings });
-	const auto seen = [&](const RealLensNumbers& numbers)
-	{
-		open(rays.Through(numbers.Rims()));
-		std::array<double, 2> place_and_soft;
-		edge.See(x.states[s].data(), pose, centre, x.lens.data(), x.c.data(), x.rims.data(), place_and_soft.data());
-		return place_and_soft;
-	};
-	if (x.rims_free)
-	{
-		std::array<std::array<double, RIMS_SIZE>, 2> by_rims{};
-		for (size_t k = 0; k < RIM_SIZE * x.sides.size(); ++k)
-		{
-			const double change = 0.02;   // of the logarithms of a radius and a distance
-			RealLensNumbers more = x, less = x;
-			more.rims[k] += change;
-			less.rims[k] -= change;
-			const std::array<double, 2> above = seen(more), below = seen(less);
-			for (size_t i = 0; i < 2; ++i)
-				by_rims[i][k] = (above[i] - below[i]) / (2 * change);
-		}
-		edge.by_rims = by_rims;
-	}
-	open(rays.Through(x.Rims()));
-	return edge;
-}
 
 struct Likely
 {
@@ -157,6 +78,9 @@ void AddWhatIsLikely(const RealLensFit& fit, RealLensNumbers& x, ceres::Problem&
 		AddLikely<RIMS_SIZE>(x.rims.data(), k, fit.rims_about[size_t(k)], SIGMA_OF_LOG_RIM, problem);
 }
 
+/// What photographs that are left out are predicted by, whether shapes count or not.
+const int PLACE_AND_BLUR = 2;
+
 const OpeningNumbers EDGE_BY_OPENING{ 3, OPENING, 5 }, LIGHT_BY_OPENING{ 1, OPENING, 3 };
 
 void AddLight(const RealLensFit& fit, RealLensNumbers& x, ceres::Problem& problem, std::vector<PhotographBlocks>& photographs)
@@ -175,6 +99,14 @@ void AddLight(const RealLensFit& fit, RealLensNumbers& x, ceres::Problem& proble
 	}
 }
 
+RealLensEdge::Seen WeightsOf(const RealLensFit& fit, const Edge& e, const std::optional<EdgeShape>& shape)
+{
+	RealLensEdge::Seen weights{ 1 / std::hypot(e.offset_sigma, fit.error.offset), 1 / std::hypot(e.blur_sigma, fit.error.blur) };
+	for (size_t i = 0; shape && i < SHAPES; ++i)
+		weights[2 + i] = 1 / std::hypot(shape->sigma[i], fit.shape_error[i]);
+	return weights;
+}
+
 /// Of edges that outlive the problem. Returns the photographs, each with the pose that is its own unless poses are shared.
 std::vector<PhotographBlocks> Build(const RealLensFit& fit, const std::vector<RealLensEdge>& edges, RealLensNumbers& x, ceres::Problem& problem)
 {
@@ -184,9 +116,10 @@ std::vector<PhotographBlocks> Build(const RealLensFit& fit, const std::vector<Re
 	{
 		double* const pose = x.PoseOf(s, p).data();
 		if (photographs.empty() || photographs.back().pose != pose)
-			photographs.push_back({ {}, pose, s });
-		auto* const cost = new RealLensEdgeCost(edges[k++], 1 / std::hypot(e.offset_sigma, fit.error.offset), 1 / std::hypot(e.blur_sigma, fit.error.blur));
-		photographs.back().residuals.push_back(AddAtStop(cost, EDGE_BY_OPENING, new ceres::HuberLoss(2.5 * std::sqrt(2.0)),
+			photographs.push_back({ {}, pose, s, {}, PLACE_AND_BLUR });
+		const RealLensEdge& edge = edges[k++];
+		auto* const cost = new RealLensEdgeCost(edge, WeightsOf(fit, e, edge.shape));
+		photographs.back().residuals.push_back(AddAtStop(cost, EDGE_BY_OPENING, new ceres::HuberLoss(2.5 * std::sqrt(double(edge.CountOfSeen()))),
 			{ x.states[s].data(), pose, x.centres[s].data(), x.lens.data(), x.c.data(), x.rims.data() }, fit.task.states[s].photos[p].stop, x.stops, problem));
 	});
 	if (!x.lens_held)
@@ -217,6 +150,21 @@ std::vector<PhotographBlocks> Build(const RealLensFit& fit, const std::vector<Re
 		if (s == 0 || !x.shared_poses)
 			problem.SetParameterBlockConstant(x.centres[s].data());
 	return photographs;
+}
+
+/// RealLensEdge::See of every edge; 0 for what is not seen.
+std::vector<RealLensEdge::Seen> SeenOf(const RealLensFit& fit, const std::vector<RealLensEdge>& edges, const RealLensNumbers& x)
+{
+	std::vector<RealLensEdge::Seen> all;
+	const std::vector<RealLensNumbers> at_stops = x.AtEveryStop();
+	ForEachEdge(fit.task, [&](size_t s, size_t p, const Edge&)
+	{
+		RealLensEdge::Seen seen{};
+		const RealLensNumbers& own = at_stops[fit.task.states[s].photos[p].stop];
+		edges[all.size()].See(x.states[s].data(), x.PoseOf(s, p).data(), x.centres[s].data(), own.lens.data(), x.c.data(), own.rims.data(), seen.data());
+		all.push_back(seen);
+	});
+	return all;
 }
 
 /// In the order of RealLensNumbers::InARow.
@@ -267,39 +215,12 @@ std::optional<Eigen::MatrixXd> CovarianceByEdges(ceres::Problem& problem, const 
 
 }
 
-std::vector<RealLensEdge> RealLensFit::EdgesAbout(const RealLensNumbers& x) const
-{
-	struct Place { size_t state, photo; const Edge* edge; };
-	std::vector<Place> places;
-	ForEachEdge(task, [&](size_t s, size_t p, const Edge& e) { places.push_back({ s, p, &e }); });
-	const std::vector<RealLensNumbers> seen = x.AtEveryStop();
-	std::vector<std::optional<RealLensEdge>> made(places.size());
-	cv::parallel_for_(cv::Range(0, int(places.size())), [&](const cv::Range& range)
-	{
-		for (int k = range.start; k < range.end; ++k)
-		{
-			const Place& at = places[size_t(k)];
-			made[size_t(k)] = EdgeOf(*this, *at.edge, seen[task.states[at.state].photos[at.photo].stop], at.state, at.photo);
-		}
-	});
-	std::vector<RealLensEdge> edges;
-	for (auto& edge : made)
-		edges.push_back(std::move(*edge));
-	return edges;
-}
-
 std::vector<std::array<double, 2>> RealLensFit::Residuals(const std::vector<RealLensEdge>& edges, const RealLensNumbers& x) const
 {
-	std::vector<std::array<double, 2>> all;
-	const std::vector<RealLensNumbers> at_stops = x.AtEveryStop();
-	ForEachEdge(task, [&](size_t s, size_t p, const Edge&)
-	{
-		double seen[2];
-		const RealLensNumbers& own = at_stops[task.states[s].photos[p].stop];
-		edges[all.size()].See(x.states[s].data(), x.PoseOf(s, p).data(), x.centres[s].data(), own.lens.data(), x.c.data(), own.rims.data(), seen);
-		all.push_back({ seen[0], seen[1] });
-	});
-	return all;
+	std::vector<std::array<double, 2>> places_and_blurs;
+	for (const RealLensEdge::Seen& seen : SeenOf(*this, edges, x))
+		places_and_blurs.push_back({ seen[0], seen[1] });
+	return places_and_blurs;
 }
 
 bool RealLensFit::Minimise(const std::vector<RealLensEdge>& edges, RealLensNumbers& x, bool coarse) const
@@ -332,12 +253,13 @@ std::optional<RealLensFit::Judged> RealLensFit::Judge(const std::vector<RealLens
 
 double RealLensFit::ErrorOfLight(const RealLensNumbers& x) const
 {
+	const std::vector<RealLensNumbers> at_stops = x.AtEveryStop();
 	std::vector<double> residuals;
 	for (const RealLensExposure& exposure : exposures)
 	{
 		const RealLensPatches& light = exposure.light;
 		const size_t n = light.patches.size();
-		const RealLensNumbers own = x.AtStop(exposure.stop);
+		const RealLensNumbers& own = at_stops[exposure.stop];
 		Eigen::VectorXd r = light.See(x.states[exposure.state].data(), own.lens.data(), x.c.data(), own.rims.data(), x.gradients[exposure.lit_alike ? *exposure.photo : 0].data());
 		for (size_t i = 0; i < n; ++i)
 			r[long(i)] *= light.patches[i].weight;
@@ -348,9 +270,22 @@ double RealLensFit::ErrorOfLight(const RealLensNumbers& x) const
 	return residuals.empty() ? 0 : std::max(RobustSigma(std::move(residuals)), 1e-4);
 }
 
-void RealLensFit::LearnLight(const RealLensNumbers& x)
+void RealLensFit::LearnErrors(const std::vector<RealLensEdge>& edges, const RealLensNumbers& x)
 {
-	// The weights say what is projected out: twice.
+	const std::vector<RealLensEdge::Seen> all = SeenOf(*this, edges, x);
+	std::vector<std::array<double, 2>> places_and_blurs;
+	std::array<std::vector<double>, SHAPES> of_shapes;
+	for (size_t k = 0; k < all.size(); ++k)
+	{
+		places_and_blurs.push_back({ all[k][0], all[k][1] });
+		for (size_t i = 0; edges[k].shape && i < SHAPES; ++i)
+			of_shapes[i].push_back(all[k][2 + i]);
+	}
+	error = ErrorOf(places_and_blurs);
+	for (size_t i = 0; i < SHAPES; ++i)
+		if (!of_shapes[i].empty())
+			shape_error[i] = std::max(RobustSigma(std::move(of_shapes[i])), 1e-3);
+	// The weights of patches say what is projected out: twice.
 	for (int round = 0; round < 2; ++round)
 	{
 		for (RealLensExposure& exposure : exposures)

@@ -52,6 +52,9 @@ struct RealLensFit
 	const Task& task;
 	Rings rings = FEW;
 	ModelError error{};
+	/// Whether the shape of blurs counts, and what the model leaves out of it. Six numbers leave out most of it: fifth-order spherical aberration shows in it first.
+	bool shapes = false;
+	std::array<double, SHAPES> shape_error{ 0.03, 0.03 };
 	double light_error = 0.02;             ///< what the model leaves out of the logarithm of a patch's light
 	std::vector<RealLensExposure> exposures{};
 	/// Rims behind the lens stay where they were told when m changes, by which they tell m a little, which edges tell badly; else the shape that they leave of the opening stays.
@@ -66,8 +69,8 @@ struct RealLensFit
 	/// As JointFit's.
 	std::vector<std::array<double, 2>> Residuals(const std::vector<RealLensEdge>& edges, const RealLensNumbers& x) const;
 	double ErrorOfLight(const RealLensNumbers& x) const;
-	/// `light_error` becomes what is left over, and the patches count so.
-	void LearnLight(const RealLensNumbers& x);
+	/// The errors become what is left over, and edges and patches count so.
+	void LearnErrors(const std::vector<RealLensEdge>& edges, const RealLensNumbers& x);
 	bool Minimise(const std::vector<RealLensEdge>& edges, RealLensNumbers& x, bool coarse) const;
 
 	/// Sigmas in the shape of the numbers themselves, by the edges and by the photographs; and what each photograph is predicted to by the
@@ -95,6 +98,7 @@ struct RealLensAnswer
 	/// what six numbers leave out of the picture would go into the tilts otherwise.
 	std::optional<RealLensNumbers> about_shared_poses;
 	ModelError error;
+	std::optional<std::array<double, SHAPES>> shape_error;   ///< where shapes counted
 	std::vector<std::array<double, 2>> residuals;   ///< RealLensFit::Residuals
 	RealLensFit::Judged judged;
 	double held_out_before = 0;   ///< of FitSceneLens: of the lens that it began with, in the same units
@@ -104,7 +108,8 @@ struct RealLensAnswer
 /// vignettes, as lens/optical_vignetting.h has it; at most MOST_RIMS of them. None: no convergence, or singular.
 std::optional<RealLensAnswer> SolveRealLens(const Task& task, const Geometry& geometry, const Solution& thin, const std::vector<tilt_lens::Rim>& rims);
 
-/// Those of the fifth order that are significant too, and the rims, which the light tells together with the edges, from SolveRealLens' answer on.
+/// Those of both orders that are significant, by the shapes of blurs too, and the rims, which the light tells together with the edges, from SolveRealLens' answer on.
+/// SolveRealLens has all of its six: a tilt without one of them would lack what that one leaves uncertain.
 std::optional<RealLensAnswer> SolveSceneLens(const Task& task, const Geometry& geometry, const RealLensNumbers& six);
 
 /// Standard deviations of the fifth-order numbers, mm, 0 before them: at the rim of lens and picture, where the slope is `slope`, a term is likely no more than

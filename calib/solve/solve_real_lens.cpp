@@ -205,6 +205,7 @@ RealLens Described(const Task& task, const RealLensAnswer& answer, const std::ve
 	}
 	found.rms_place = answer.error.offset;
 	found.rms_blur = answer.error.blur;
+	found.rms_shape = answer.shape_error;
 	found.held_out = answer.judged.held_out;
 	return found;
 }

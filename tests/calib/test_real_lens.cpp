@@ -143,48 +143,49 @@ TEST(RealLensEdgeCost, HasTheDerivativesOfJets)
 		c[k] = 0.03 * (k % 5 - 2.2);
 	for (const bool along_columns : { true, false })
 	{
-		RealLensEdge edge{ 60, 45, along_columns, 1300, 380, 0.6, -0.8, 8, 0.02, FitResponse(0.6, -0.8, 9, 10, 0.1), 0.2, 0.15, 1.1, OpeningPoints(), {} };
+		RealLensEdge edge{ 60, 45, along_columns, 1300, 380, 0.6, -0.8, 8, 0.02, FitResponse(0.6, -0.8, 9, 10, 0.1, true), 0.2, 0.15, 1.1, OpeningPoints(), {} };
 		for (size_t k = 0; k < edge.points.size(); ++k)
 			edge.px_per_mm.push_back(3.6 + 0.01 * double(k));
 		edge.at_rims = { 0.1, 0.5, 0.2, 0.3 };
-		edge.by_rims = { { { 0.2, -0.1, 0.05, 0.3 }, { -0.4, 0.2, 0.6, -0.7 } } };
+		edge.by_rims = { { { 0.2, -0.1, 0.05, 0.3 }, { -0.4, 0.2, 0.6, -0.7 }, { 0.01, 0.02, -0.03, 0.01 }, { -0.02, 0.04, 0.01, 0.03 } } };
+		edge.shape = EdgeShape{ { 0.02, -0.03 }, { 0.01, 0.01 } };
 		const double* const parameters[] = { state, pose, centre, lens, c, rims };
 		const int sizes[] = { STATE_SIZE, 6, 3, LENS_SIZE, tilt_lens::AberrationTerms, RIMS_SIZE };
-		const ceres::AutoDiffCostFunction<ByJets, 2, STATE_SIZE, 6, 3, LENS_SIZE, tilt_lens::AberrationTerms, RIMS_SIZE> jets(new ByJets{ edge });
-		const double weight[] = { 2, 5 };
-		const RealLensEdgeCost cost(edge, weight[0], weight[1]);
+		const ceres::AutoDiffCostFunction<ByJets, RealLensEdge::SEEN, STATE_SIZE, 6, 3, LENS_SIZE, tilt_lens::AberrationTerms, RIMS_SIZE> jets(new ByJets{ edge });
+		const RealLensEdge::Seen weight{ 2, 5, 30, 40 };
+		const RealLensEdgeCost cost(edge, weight);
 		std::vector<std::vector<double>> expected, found;
 		std::vector<double*> to_expected, to_found;
 		for (const int size : sizes)
 		{
-			expected.emplace_back(2 * size);
-			found.emplace_back(2 * size);
+			expected.emplace_back(RealLensEdge::SEEN * size);
+			found.emplace_back(RealLensEdge::SEEN * size);
 		}
 		for (size_t b = 0; b < std::size(sizes); ++b)
 		{
 			to_expected.push_back(expected[b].data());
 			to_found.push_back(found[b].data());
 		}
-		double by_jets[2], seen[2];
-		ASSERT_TRUE(jets.Evaluate(parameters, by_jets, to_expected.data()));
-		ASSERT_TRUE(cost.Evaluate(parameters, seen, to_found.data()));
-		for (int i = 0; i < 2; ++i)
+		RealLensEdge::Seen by_jets, seen;
+		ASSERT_TRUE(jets.Evaluate(parameters, by_jets.data(), to_expected.data()));
+		ASSERT_TRUE(cost.Evaluate(parameters, seen.data(), to_found.data()));
+		for (size_t i = 0; i < RealLensEdge::SEEN; ++i)
 		{
 			EXPECT_NEAR(seen[i], weight[i] * by_jets[i], 1e-10 * std::abs(by_jets[i]));
 			for (size_t b = 0; b < std::size(sizes); ++b)
 				for (int k = 0; k < sizes[b]; ++k)
 				{
-					const double exact = weight[i] * expected[b][size_t(i * sizes[b] + k)];
-					EXPECT_NEAR(found[b][size_t(i * sizes[b] + k)], exact, 1e-10 * std::abs(exact) + 1e-10) << "residual " << i << ", block " << b << ", number " << k;
+					const double exact = weight[i] * expected[b][i * size_t(sizes[b]) + size_t(k)];
+					EXPECT_NEAR(found[b][i * size_t(sizes[b]) + size_t(k)], exact, 1e-10 * std::abs(exact) + 1e-10) << "residual " << i << ", block " << b << ", number " << k;
 				}
 		}
 		// Blocks that are held are not asked for.
 		std::vector<double*> some = to_found;
 		some[0] = some[4] = nullptr;
 		const std::vector<double> before = found[1];
-		ASSERT_TRUE(cost.Evaluate(parameters, seen, some.data()));
+		ASSERT_TRUE(cost.Evaluate(parameters, seen.data(), some.data()));
 		EXPECT_EQ(found[1], before);
-		ASSERT_TRUE(cost.Evaluate(parameters, seen, nullptr));
+		ASSERT_TRUE(cost.Evaluate(parameters, seen.data(), nullptr));
 	}
 }
 

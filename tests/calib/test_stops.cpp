@@ -11,6 +11,7 @@
 #include <tiltcal/calibrate.h>
 #include <tiltcal/error.h>
 
+#include <ceres/sized_cost_function.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -130,15 +131,16 @@ TEST(CostAtStop, IsTheCostOfALensWithThatOpening)
 TEST(CostAtStop, OfAnEdgeThroughARealLensHasItsDerivatives)
 {
 	using namespace real_lens;
-	RealLensEdge edge{ 60, 45, true, 1300, 380, 0.6, -0.8, 8, 0.02, FitResponse(0.6, -0.8, 9, 10, 0.1), 0.2, 0.15, 1.1, OpeningPoints(), {} };
+	RealLensEdge edge{ 60, 45, true, 1300, 380, 0.6, -0.8, 8, 0.02, FitResponse(0.6, -0.8, 9, 10, 0.1, true), 0.2, 0.15, 1.1, OpeningPoints(), {} };
 	for (size_t k = 0; k < edge.points.size(); ++k)
 		edge.px_per_mm.push_back(3.6 + 0.01 * double(k));
 	edge.at_rims = { 0.1, 0.5, 0.2, 0.3 };
-	edge.by_rims = { { { 0.2, -0.1, 0.05, 0.3 }, { -0.4, 0.2, 0.6, -0.7 } } };
+	edge.by_rims = { { { 0.2, -0.1, 0.05, 0.3 }, { -0.4, 0.2, 0.6, -0.7 }, { 0.01, 0.02, -0.03, 0.01 }, { -0.02, 0.04, 0.01, 0.03 } } };
+	edge.shape = EdgeShape{ { 0.02, -0.03 }, { 0.01, 0.01 } };
 	std::vector<double> c;
 	for (int k = 0; k < tilt_lens::AberrationTerms; ++k)
 		c.push_back(0.03 * (k % 5 - 2.2));
-	const CostAtStop cost(std::make_unique<RealLensEdgeCost>(edge, 2, 5), { 3, OPENING, 5 });
+	const CostAtStop cost(std::make_unique<RealLensEdgeCost>(edge, RealLensEdge::Seen{ 2, 5, 30, 40 }), { 3, OPENING, 5 });
 	const std::vector<double> state{ 0.09, -0.04, 2410, 905, 590 }, pose{ 0.3, -0.4, 3.0, -40, 25, 610 }, centre{ 0.4, -0.2, 0.1 }, lens{ 0.02 / 45, 1.07, 0.98, 1.3 }, rims{ 0.2, 0.5, 0.1, 0.4 };
 	const std::vector<double> log_ratio{ -0.8 };
 	const std::vector<std::vector<double>> at{ state, pose, centre, lens, c, rims, log_ratio };
@@ -146,14 +148,15 @@ TEST(CostAtStop, OfAnEdgeThroughARealLensHasItsDerivatives)
 	std::vector<const double*> x;
 	for (const auto& block : at)
 		x.push_back(block.data());
-	double seen[2], above[2], below[2], by[2], more = log_ratio[0] + 1e-5, less = log_ratio[0] - 1e-5;
-	double* jacobians[] = { nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, by };
-	ASSERT_TRUE(cost.Evaluate(x.data(), seen, jacobians));
+	RealLensEdge::Seen seen, above, below, by;
+	double more = log_ratio[0] + 1e-5, less = log_ratio[0] - 1e-5;
+	double* jacobians[] = { nullptr, nullptr, nullptr, nullptr, nullptr, nullptr, by.data() };
+	ASSERT_TRUE(cost.Evaluate(x.data(), seen.data(), jacobians));
 	x.back() = &more;
-	ASSERT_TRUE(cost.Evaluate(x.data(), above, nullptr));
+	ASSERT_TRUE(cost.Evaluate(x.data(), above.data(), nullptr));
 	x.back() = &less;
-	ASSERT_TRUE(cost.Evaluate(x.data(), below, nullptr));
-	for (int i = 0; i < 2; ++i)
+	ASSERT_TRUE(cost.Evaluate(x.data(), below.data(), nullptr));
+	for (size_t i = 0; i < RealLensEdge::SEEN; ++i)
 		EXPECT_NEAR(by[i], (above[i] - below[i]) / 2e-5, 1e-4 * std::abs(by[i]) + 1e-6) << i;
 }
 

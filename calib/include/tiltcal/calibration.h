@@ -268,7 +268,7 @@ struct PhotographCheck
 	std::optional<size_t> fits_state;      ///< its blur is that of this other state
 	std::optional<std::pair<size_t, size_t>> same_as;   ///< state and photograph that was measured alike, noise and all
 	bool odd_places = false, odd_blur = false;   ///< it stands out
-	size_t stop = 0;
+	size_t stop = 0;   ///< Photo::stop
 };
 
 /// What the corners say of the board's shape: the same fit with a board that need not be as it was told. Nothing else uses it.
@@ -339,6 +339,8 @@ struct RealLens
 	std::vector<RimEstimate> rims;    ///< found together with the lens; of six numbers those of the thin lens, larger as the aperture is
 	std::vector<RealLensState> states;
 	double rms_place = 0, rms_blur = 0;       ///< robust, px
+	/// The same of the shape of blurs, as parts of their light: asymmetry and hollowness (edge/disc_shape.h); where the lens was fitted to it.
+	std::optional<std::array<double, 2>> rms_shape;
 	std::vector<double> place_errors_px;      ///< of every edge, predicted minus measured, along its normal to the bright side; states, photographs and edges one after the other
 	std::vector<double> blur_errors_px;       ///< the same of their blur
 	double held_out = 0;              ///< RMS residual of photographs predicted by the others, in what is usual of all; 0: cannot be said
