@@ -275,14 +275,19 @@ void WidenWhereGlassShows(const CalibrateOptions& o, Calibration& c)
 	const Solution whole = c.solution;
 	c.thin_as_it_scatters = whole.states;
 	const std::vector<PartAnswer> parts = SolveParts(c);
+	for (Solution* told : { &c.solution, &c.render })
+		WidenByParts(whole, parts, *told);
+}
+
+/// The sigma of a thin lens's f, however well it fits: no photograph tells it from a real lens with pupils of two sizes.
+void WidenByUnknownPupils(Calibration& c)
+{
 	const auto& priors = c.task.priors;
 	const bool told_f = std::any_of(priors.begin(), priors.end(), [](const Prior& p) { return p.quantity == Quantity::FOCAL_LENGTH; });
+	if (c.solution.model == Model::PAPER || c.RealLensIsUsed() || told_f)
+		return;
 	for (Solution* told : { &c.solution, &c.render })
-	{
-		WidenByParts(whole, parts, *told);
-		if (!told_f)
-			WidenByPupils(*told);
-	}
+		WidenByPupils(*told);
 }
 
 Calibration Solve(const Task& measured, const CalibrateOptions& o)
@@ -348,6 +353,7 @@ Calibration Solve(const Task& measured, const CalibrateOptions& o)
 		c.next = FindNextPhotographs(c);
 	WidenWhereGlassShows(o, c);
 	WidenByFloor(o, c);
+	WidenByUnknownPupils(c);
 	WidenTilts(c);
 	c.verdict = Judge(c);
 	// Last: such a lens is graded by its tilts.
