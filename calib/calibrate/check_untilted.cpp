@@ -30,7 +30,10 @@ UntiltedCheck CheckUntilted(const Calibration& c)
 		}
 		StateLens lens;
 		FillStateLens(fit.Plane(x, 0), s.w_mm.value, fit.Covariance(x, s.w_mm.sigma).OfPlaneAndImageDistance(0), lens);
-		check = { true, lens.lens_tilt, lens.tilt_direction };
+		check = { true, lens.lens_tilt, lens.tilt_direction, std::nullopt };
+		const GeometryAlone places = TiltFromGeometryAlone(c.task, c.geometry, s, true);
+		if (!places.states.empty())
+			check.by_places = places.states[0];
 	}
 	catch (const Error& e)
 	{

@@ -10,7 +10,8 @@
 namespace tiltcal
 {
 
-/// The blur once more, with the untilted state's tilt free and the geometry held. Not known where the fit has no answer.
+/// The blur once more, with the untilted state's tilt free and the geometry held. Not known where the fit has no answer. And the places of
+/// the edges, with that tilt free and blur aside, where they tell it.
 UntiltedCheck CheckUntilted(const Calibration& calibration);
 
 }

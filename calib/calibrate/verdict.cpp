@@ -4,6 +4,7 @@
 #include "calibrate/verdict_remarks.h"
 
 #include "calibrate/check_light.h"
+#include "calibrate/one_photograph.h"
 
 #include "solve/blur_fit.h"
 #include "solve/each_edge.h"
@@ -62,7 +63,7 @@ public:
 			if (s > 0)
 				Tilt(s);
 			BothSides(s);
-			OnePhotograph(s);
+			AddRemarks(JudgeLeftOut(c, s));
 			BlurAgainstGeometry(s);
 		}
 		Priors();
@@ -148,33 +149,22 @@ private:
 		return 10 * farthest * nearest > 1;
 	}
 
-	void OnePhotograph(size_t s)
-	{
-		const LeftOut* worst = nullptr;
-		for (const LeftOut& l : c.solution.left_out)
-			if (l.state == s && (!worst || l.tilt_change > worst->tilt_change))
-				worst = &l;
-		if (s > 0 && !worst && c.task.states[s].photos.size() == 1)
-			Say(Grade::FAIR, fmt::format("state {}: one photograph alone cannot be checked against others: photograph at least three poses", StateName(s)));
-		if (s == 0 || !worst)
-			return;
-		const double sigma = c.solution.states[s].lens_tilt.sigma;
-		if (worst->tilt_change > std::max(4 * sigma, 0.05))
-			Say(worst->tilt_change > 0.3 ? Grade::POOR : Grade::FAIR, fmt::format("state {}: without {} the tilt changes by {:.2f} degrees: look at that photograph, and take more", StateName(s),
-				c.task.states[s].photos[worst->photo].file, worst->tilt_change));
-	}
-
 	void BlurAgainstGeometry(size_t s)
 	{
-		if (s == 0 || c.geometry_alone.states.size() <= s || c.blur_alone.size() <= s)
-			return;
-		const StateLens &blur = c.blur_alone[s], &geometry = c.geometry_alone.states[s];
-		const auto tilt = [](const StateLens& l) { return TiltVector(l.lens_tilt.value, l.tilt_direction.value); };
-		const double apart = (tilt(blur) - tilt(geometry)).norm();
-		const double sigma = std::hypot(blur.lens_tilt.sigma, geometry.lens_tilt.sigma);
+		// The untilted state's tilt is held: what both say when it is let free.
+		if (s == 0 && c.untilted_check.known && c.untilted_check.by_places)
+			Disagree(s, c.untilted_check.lens_tilt, c.untilted_check.tilt_direction, *c.untilted_check.by_places);
+		else if (s > 0 && s < c.geometry_alone.states.size() && s < c.blur_alone.size())
+			Disagree(s, c.blur_alone[s].lens_tilt, c.blur_alone[s].tilt_direction, c.geometry_alone.states[s]);
+	}
+
+	void Disagree(size_t s, const Estimate& tilt, const Estimate& direction, const StateLens& geometry)
+	{
+		const double apart = (TiltVector(tilt.value, direction.value) - TiltVector(geometry.lens_tilt.value, geometry.tilt_direction.value)).norm();
+		const double sigma = std::hypot(tilt.sigma, geometry.lens_tilt.sigma);
 		if (apart > 3 * sigma && apart > 0.05)
-			Say(apart > 0.5 && apart > 5 * sigma ? Grade::POOR : Grade::FAIR, fmt::format("state {}: blur and geometry, each alone, disagree by {:.2f} degrees ({:.0f} sigma); blur decides. "
-				"Was the board moved between the states, or the camera?", StateName(s), apart, apart / sigma));
+			Say(apart > 0.5 && apart > 5 * sigma ? Grade::POOR : Grade::FAIR, fmt::format("state {}: blur and geometry, each alone, disagree by {:.2f} degrees ({:.0f} sigma); {}. "
+				"Was the board moved between the states, or the camera?", StateName(s), apart, apart / sigma, s ? "blur decides" : "it is taken to be untilted"));
 	}
 
 	void Priors()

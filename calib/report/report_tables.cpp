@@ -263,7 +263,7 @@ std::string PhotographsTable(const Calibration& c)
 			const auto mark = [](const std::string& text, bool odd) { return odd ? "<b>" + text + " stands out</b>" : text; };
 			rows.push_back({ fmt::format("<i style=\"color:{}\">■</i> {} {}", html::PhotoColour(p), p + 1, HtmlText(BaseName(photo.file))), HtmlText(c.task.states[s].name), mark(Number(g.states[s].photo_rms[p], 3), odd_places),
 				mark(Number(RmsBlur(c, s, p), 3), odd_blur), std::to_string(photo.edges.size()), std::to_string(photo.edges_dropped), Number(ratios.least, 3), Number(ratios.median, 3), Number(ratios.most, 3),
-				known && s > 0 ? Number(left->tilt_change, 3) + "°" : "–", known ? Number(left->rms_blur, 3) : "–" });
+				known ? Number(left->tilt_change, 3) + "°" : "–", known ? Number(left->rms_blur, 3) : "–" });
 		}
 	return "<div class=\"files\">" + html::Table(rows) + "</div>\n";
 }

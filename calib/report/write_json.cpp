@@ -282,12 +282,14 @@ std::string CalibrationJson(const Calibration& c)
 	{
 		Put(json["untilted_check"], "lens_tilt", "_deg", c.untilted_check.lens_tilt);
 		Put(json["untilted_check"], "tilt_direction", "_deg", c.untilted_check.tilt_direction);
+		if (c.untilted_check.by_places)
+			PutTilt(json["untilted_check"]["by_places"], *c.untilted_check.by_places);
 	}
 	json["converged"] = c.refined;
 	json["left_out"] = Json::array();
 	for (const LeftOut& l : c.solution.left_out)
 		json["left_out"].push_back({ { "state", c.task.states[l.state].name }, { "file", c.task.states[l.state].photos[l.photo].file },
-			{ "tilt_change_deg", l.tilt_change }, { "rms_blur_px", l.rms_blur } });
+			{ "tilt_change_deg", l.tilt_change }, { "aperture_change_mm", l.aperture_change }, { "inverse_focus_change_per_mm", l.inverse_focus_change }, { "rms_blur_px", l.rms_blur } });
 	if (c.solution.model != Model::PAPER)
 	{
 		json["light"]["clipped_edges_share"] = c.light.clipped_share;

@@ -22,6 +22,16 @@ Eigen::Vector2d TiltOfState(const BlurFit& fit, const Unknowns& x, size_t state)
 	return TiltVector(a.lens_tilt, a.tilt_direction);
 }
 
+/// Of the state's own tilt; without one of the untilted state's all may move, by the d and w that they share with it: the greatest.
+double TiltChange(const BlurFit& fit, const Unknowns& with, const Unknowns& without, size_t state)
+{
+	double most = 0;
+	for (size_t s = 0; s < with.state.size(); ++s)
+		if (state == 0 || s == state)
+			most = std::max(most, (TiltOfState(fit, without, s) - TiltOfState(fit, with, s)).norm());
+	return most;
+}
+
 }
 
 HeldOut HoldOut(const BlurFit& fit, const Unknowns& x, double most)
@@ -49,7 +59,7 @@ HeldOut HoldOut(const BlurFit& fit, const Unknowns& x, double most)
 				squares += std::pow(std::min(std::abs(fit.Residual(o, y)), most), 2);
 			sum += squares;
 			count += own.size();
-			result.photos.push_back({ state, photo, (TiltOfState(fit, y, state) - TiltOfState(fit, x, state)).norm(), std::sqrt(squares / double(own.size())) });
+			result.photos.push_back({ state, photo, TiltChange(fit, x, y, state), std::abs(std::abs(y.d) - std::abs(x.d)), std::abs(fit.Plane(y, 0).z - fit.Plane(x, 0).z), std::sqrt(squares / double(own.size())) });
 		}
 	result.rms = count ? std::sqrt(sum / double(count)) : 0;
 	return result;

@@ -97,9 +97,10 @@ Photographs Build(const JointFit& fit, Geometry& g, Unknowns& x, ceres::Problem&
 		return photographs;
 	for (double* block : { &x.d, &x.floor_squared, &x.power, x.curvature.data() })
 		problem.SetParameterBlockConstant(block);
-	problem.SetParameterBlockConstant(x.state[0].data());
+	if (!x.untilted_free)
+		problem.SetParameterBlockConstant(x.state[0].data());
 	// Of a state's numbers the tilt alone is seen: q_z hardly moves the lens normal.
-	for (size_t s = 1; s < x.state.size(); ++s)
+	for (size_t s = x.untilted_free ? 0 : 1; s < x.state.size(); ++s)
 		problem.SetManifold(x.state[s].data(), new ceres::SubsetManifold(3, { 2 }));
 	return photographs;
 }

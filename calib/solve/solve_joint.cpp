@@ -92,12 +92,13 @@ double HeldOutOf(const Task& task, const Geometry& geometry, const Solution& sol
 	return covariance ? covariance->held_out : 0;
 }
 
-GeometryAlone TiltFromGeometryAlone(const Task& task, const Geometry& geometry, const Solution& solution)
+GeometryAlone TiltFromGeometryAlone(const Task& task, const Geometry& geometry, const Solution& solution, bool untilted_free)
 {
 	if (geometry.distortion_terms == 0 || !geometry.shared_poses)
 		return {};
 	Geometry g = geometry;
 	Unknowns x = UnknownsOf(solution);
+	x.untilted_free = untilted_free;
 	JointFit fit{ task, solution.lens, Refinement::EDGES, {}, true };
 	for (int round = 0; round < 2; ++round)
 	{

@@ -21,8 +21,9 @@ double HeldOutOf(const Task& task, const Geometry& geometry, const Solution& sol
 
 /// The lens tilts as the places of the edges alone tell them, blur aside (JointFit::geometry_alone). The other
 /// numbers of the states are `solution`'s. Nothing where they tell nothing: without distortion, with poses of every
-/// state's own, which take up what a tilt does to the picture, or singular.
-GeometryAlone TiltFromGeometryAlone(const Task& task, const Geometry& geometry, const Solution& solution);
+/// state's own, which take up what a tilt does to the picture, or singular. The untilted state's is held, unless
+/// `untilted_free`: then all are known less well.
+GeometryAlone TiltFromGeometryAlone(const Task& task, const Geometry& geometry, const Solution& solution, bool untilted_free = false);
 
 }
 

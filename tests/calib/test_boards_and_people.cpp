@@ -276,11 +276,21 @@ TEST(BoardsAndPeople, EqualNumbersInOtherPosesDoNotMisleadThePapersModel)
 
 TEST(BoardsAndPeople, AFailedRefinementIsInTheVerdict)
 {
-	Calibration c = Calibrate(Named({ Photograph("untilted", Lens(), NoiseOf(1)), Photograph("tilted", Tilted(5), NoiseOf(2)) }), PLANE);
-	ASSERT_TRUE(c.refined);
-	c.refined = false;
-	EXPECT_EQ(Judge(c).grade, Grade::POOR);
-	EXPECT_THAT(Judge(c).remarks, Says("did not converge"));
+	Task task = Named({ Photograph("untilted", Lens(), NoiseOf(1)), Photograph("tilted", Tilted(5), NoiseOf(2)) });
+	ASSERT_TRUE(Calibrate(task, PLANE).refined);
+	// A brightness that is no number, as floats may have it: corners and blur, each alone, are solved all the same.
+	for (int k = -6; k <= 6; ++k)
+		task.states[1].photos[2].edges[10].profile.push_back({ float(k), k ? 0.5f : NAN, 10 });
+	std::vector<std::string> warnings;
+	CalibrateOptions options = PLANE;
+	options.refinement = Refinement::PHOTOMETRIC;
+	options.log = Log([&](Severity severity, const std::string& text) { if (severity == Severity::WARNING) warnings.push_back(text); });
+	const Calibration c = Calibrate(task, options);
+	EXPECT_FALSE(c.refined);
+	EXPECT_EQ(c.verdict.grade, Grade::POOR);
+	EXPECT_THAT(c.verdict.remarks, Says("the joint refinement did not converge"));
+	EXPECT_THAT(warnings, Contains(HasSubstr("the joint refinement did not converge")));
+	EXPECT_THAT(CalibrationJson(c), HasSubstr("\"converged\": false"));
 }
 
 TEST(BoardsAndPeople, WhatIsKnownBetterFollowsTheCorrelationsSign)

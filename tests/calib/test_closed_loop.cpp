@@ -71,6 +71,54 @@ TEST(ClosedLoop, ARefusalIsExpectedByNameOrFailsTheRun)
 	EXPECT_THAT(tiltcal::ReadText(page, "page"), testing::HasSubstr("Without an answer: 2 of 3 sets, 1 of them unexpected, which fails the run. **random 30, snr200**."));
 }
 
+TEST(ClosedLoop, AShareHasItsBinomialInterval)
+{
+	// Wilson's, as tables of it have it: 8 of 10, 0 of 10.
+	EXPECT_NEAR(IntervalOf(8, 10).low, 0.490, 0.001);
+	EXPECT_NEAR(IntervalOf(8, 10).high, 0.943, 0.001);
+	EXPECT_EQ(IntervalOf(0, 10).low, 0);
+	EXPECT_NEAR(IntervalOf(0, 10).high, 0.278, 0.001);
+	EXPECT_EQ(IntervalOf(0, 0).high, 1);
+	EXPECT_TRUE(IntervalOf(80, 100).IsOutside(0.9, 0.99));
+	EXPECT_TRUE(IntervalOf(1000, 1000).IsOutside(0.9, 0.99));
+	EXPECT_FALSE(IntervalOf(85, 100).IsOutside(0.9, 0.99)) << "of a true 90 by chance";
+}
+
+TEST(ClosedLoop, NumbersThatHangTogetherSayLess)
+{
+	// Ten sets of four numbers, two of them wholly outside: as ten numbers say it.
+	std::vector<Result> together, scattered;
+	for (int set = 0; set < 10; ++set)
+	{
+		const double off = set < 2 ? 3 : 0;
+		together.push_back(Of("a", { { "w", 0, off, 1 }, { "f", 0, off, 1 }, { "d", 0, off, 1 }, { "U", 0, off, 1 } }));
+		scattered.push_back(Of("a", { { "w", 0, set < 8 ? 3. : 0., 1 }, { "f", 0, 0, 1 }, { "d", 0, 0, 1 }, { "U", 0, 0, 1 } }));
+	}
+	// sum (inside - p all)^2 = 2 3.2^2 + 8 0.8^2 = 25.6; times 10/9 over 40 0.8 0.2.
+	EXPECT_NEAR(CoverageOfAll(together).clustering, 25.6 / 0.9 / 6.4, 1e-9);
+	EXPECT_EQ(CoverageOfAll(scattered).clustering, 1);
+	EXPECT_EQ(CoverageOfAll(together).Share(), CoverageOfAll(scattered).Share());
+	EXPECT_GT(CoverageOfAll(together).Where().high, CoverageOfAll(scattered).Where().high);
+}
+
+TEST(ClosedLoop, ARimOfALensThatHasNoneIsCounted)
+{
+	std::vector<Result> results(20, Of("a", {}));
+	results.push_back(RefusedOf("b"));
+	EXPECT_EQ(CountMadeUpRims(results).sets, 20);
+	tiltcal::Effect rim;
+	rim.id = tiltcal::EffectId::VIGNETTING_OPTICAL;
+	results[3].answer.calibration.effects = { rim };
+	EXPECT_EQ(CountMadeUpRims(results).with, 0) << "it is not used";
+	results[3].answer.calibration.effects[0].used = true;
+	EXPECT_EQ(CountMadeUpRims(results).with, 1);
+	EXPECT_FALSE(CountMadeUpRims(results).AreTooMany());
+	results[4] = results[5] = results[3];
+	EXPECT_TRUE(CountMadeUpRims(results).AreTooMany());
+	results[3].camera.glass = "lens.txt";
+	EXPECT_EQ(CountMadeUpRims(results).with, 2) << "glass may have rims";
+}
+
 TEST(ClosedLoop, FewerThanTheLeastAreOnceInAThousand)
 {
 	// Tables of the binomial distribution: P(X <= 12 | 20, 0.9) = 0.0004, P(X <= 13) = 0.0024; P(X <= 1 | 3, 0.5) = 0.5, P(X = 0) = 0.125.

@@ -61,6 +61,17 @@ TEST(Light, LinearLightIsGood)
 // Each biases blur by more than its sigma (the aperture by 7 to 25 %), so none may be good.
 TEST(Light, SharpenedIsSaid) { EXPECT_GT(Developed("sharpened").verdict.grade, Grade::GOOD); }
 
+// As a camera's own JPEGs have them, each beside the other; and clipped at the file's own full scale.
+TEST(Light, WhatCamerasCookIsSaid)
+{
+	for (const char* light : { "sharpened-tone-curve", "cooked-jpeg", "clipped" })
+	{
+		const Calibration c = Developed(light);
+		EXPECT_FALSE(JudgeLight(c.light).empty()) << light;
+		EXPECT_GT(c.verdict.grade, Grade::GOOD) << light;
+	}
+}
+
 TEST(Light, SharpenedPhotographsAreNotCalledMisfiled)
 {
 	// Two untilted photographs of this camera are sharper than the others, and are what sharpening changes most.

@@ -112,6 +112,11 @@ misfiled)
 	grep -q '"fits_state": "plus5"' result/calibration.json || fail "no fits_state in calibration.json"
 	grep -q '"square_sigma_mm": 0.02' result/calibration.json || fail "no square_sigma_mm in calibration.json"
 	grep -q "stands out" result/report.html || fail "nothing stands out in report.html" ;;
+misfiled_real_lens) # the same where the model is free and a real lens is tried: aberrations, which it has, must not excuse a lens that was tilted
+	expect 0 calibrate --board 12x9 --square 25 --pitch 0.02 --edges-per-photo 60 --out result --untilted "$target"/untilted-[1-5].jpg "$target/plus5-6.jpg" \
+		--tilted plus5="$target/plus5-[1-5].jpg" --tilted minus5="$target/minus5-[1-5].jpg"
+	says "solving one real lens"
+	prints "verdict: poor" ; prints "plus5-6.jpg: its blur fits" ;;
 bad_name) calibrate 2 NAME "$target/untilted-1.jpg" --tilted "$target/plus5-1.jpg"; calibrate 2 NAME "$target/untilted-1.jpg" --tilted "5deg=$target/plus5-1.jpg" ;;
 same_name) calibrate 2 "already taken" "$target/untilted-1.jpg" --tilted "untilted=$target/plus5-1.jpg" ;;
 bad_stops)
@@ -236,8 +241,13 @@ other_poses) # as many photographs in every state, but of other poses: the commo
 	told() { awk -F'[:,]' -v key="\"$1\"" '/"states": \[/ { states = 1 } states && /"name": "plus5"/ { here = 1 } here && index($1, key) { print $2 + 0; exit }' result/calibration.json; }
 	tilt=$(told lens_tilt_deg) sigma=$(told lens_tilt_sigma_deg)
 	awk -v tilt="$tilt" -v sigma="$sigma" 'BEGIN { d = tilt - 5; exit !(sigma > 0 && sigma <= 0.15 && d < 3 * sigma && d > -3 * sigma) }' || fail "the tilt is told as $tilt +- $sigma, not 5"
-	# The paper's method finds 3.7 +- 0.1 on this lens with all photographs and 3.5 +- 0.15 with five; with the poses of other photographs, 2.0.
-	grep -m 1 '^plus5 *paper' out | awk '{ d = $4 - 3.7 } END { exit !(NR == 1 && d < 0.6 && d > -0.6) }' || fail "the paper's tilt is of other poses" ;;
+	# The paper's method takes the poses of these photographs, not those of the untilted ones of the same numbers: of the same tilted photographs, the untilted ones in their poses,
+	# it says the same. Both have noise of their own: 3 sigma, once in 370. (With the poses of other photographs: 2.0 degrees, 1.5 off.)
+	paper() { awk '/^plus5 *paper/ { print $4, $6; exit }' out; }
+	own=$(paper)
+	expect 0 calibrate --board 12x9 --square 25 --pitch 0.02 --model paper --untilted "$target/untilted-[2-6].jpg" --tilted plus5="$target/plus5-[2-6].jpg" --out shared
+	shared=$(paper)
+	echo "$own $shared" | awk '{ d = $1 - $3; s = sqrt($2 * $2 + $4 * $4) } END { exit !(NF == 4 && s > 0 && d < 3 * s && d > -3 * s) }' || fail "the paper's tilt is of other poses: $own and $shared" ;;
 target_files)
 	expect 0 target --board 12x9 --square 25 --out new/board.pdf --out new/board.svg --out new/board.inc
 	prints "a3 landscape (420 x 297 mm)"; prints "written to new/board.inc"

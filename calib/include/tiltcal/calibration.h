@@ -84,7 +84,9 @@ struct NamedCovariance
 struct LeftOut
 {
 	size_t state = 0, photo = 0;
-	double tilt_change = 0;   ///< length of the change of the tilt vector, degrees
+	double tilt_change = 0;   ///< length of the change of the tilt vector, degrees; of the untilted state's photographs the greatest of all states
+	double aperture_change = 0;        ///< of d, mm
+	double inverse_focus_change = 0;   ///< of the untilted state's 1/U, 1/mm
 	double rms_blur = 0;      ///< of the photograph that was left out, px
 };
 
@@ -286,6 +288,7 @@ struct UntiltedCheck
 {
 	bool known = false;
 	Estimate lens_tilt, tilt_direction;   ///< degrees
+	std::optional<StateLens> by_places;   ///< what the places of edges say of it, blur aside; none: nothing
 };
 
 enum class Grade

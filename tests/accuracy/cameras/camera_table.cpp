@@ -55,6 +55,19 @@ std::vector<Camera> AllCameras()
 	};
 }
 
+Camera Quick(Camera c, double megapixels)
+{
+	c.lens_points = 200;
+	const double pixels = std::sqrt(1e6 * megapixels / (double(c.width) * c.height));
+	if (pixels >= 1)
+		return c;
+	const double wide = c.width * c.pitch;
+	c.width = int(std::lround(c.width * pixels));
+	c.height = int(std::lround(c.height * pixels));
+	c.pitch = wide / c.width;
+	return c;
+}
+
 Camera RandomCamera(unsigned seed)
 {
 	std::mt19937 random(seed * 7919u + 17);

@@ -176,7 +176,7 @@ Negatives Photograph(const Camera& camera, unsigned seed)
 	return n;
 }
 
-Answer CloseTheLoop(const Negatives& n, const Light& light, unsigned seed, const std::string& folder, const tiltcal::CalibrateOptions& choice)
+std::vector<tiltcal::StateFiles> DevelopAll(const Negatives& n, const Light& light, unsigned seed, const std::string& folder)
 {
 	std::filesystem::create_directories(folder);
 	std::vector<tiltcal::StateFiles> states;
@@ -193,12 +193,16 @@ Answer CloseTheLoop(const Negatives& n, const Light& light, unsigned seed, const
 		if (stops)
 			develop(s, n.stopped[s], seed * 1000 + 50, "-stopped", n.camera.stopped_to);
 	}
+	return states;
+}
+
+Answer CalibrateFiles(const Negatives& n, const Light& light, const std::vector<tiltcal::StateFiles>& files, tiltcal::MeasureOptions measure, const tiltcal::CalibrateOptions& choice)
+{
 	Answer a;
 	try
 	{
-		tiltcal::MeasureOptions measure;
 		measure.transfer.kind = light.srgb ? tiltcal::Transfer::SRGB : tiltcal::Transfer::LINEAR;
-		a.calibration = tiltcal::Calibrate(tiltcal::MeasureAll(states, n.camera.board, n.camera.pitch, measure), choice);
+		a.calibration = tiltcal::Calibrate(tiltcal::MeasureAll(files, n.camera.board, n.camera.pitch, measure), choice);
 		Compare(n.camera, a.calibration, a);
 	}
 	catch (const tiltcal::Error& e)
@@ -206,6 +210,11 @@ Answer CloseTheLoop(const Negatives& n, const Light& light, unsigned seed, const
 		a.refusal = e.what();
 	}
 	return a;
+}
+
+Answer CloseTheLoop(const Negatives& n, const Light& light, unsigned seed, const std::string& folder, const tiltcal::CalibrateOptions& choice)
+{
+	return CalibrateFiles(n, light, DevelopAll(n, light, seed, folder), {}, choice);
 }
 
 }

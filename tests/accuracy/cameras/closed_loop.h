@@ -45,6 +45,12 @@ struct Negatives
 
 Negatives Photograph(const Camera& camera, unsigned seed);
 
+/// Develops into `folder`: the files by state, as the calibrator takes them. `seed`: of the noise.
+std::vector<tiltcal::StateFiles> DevelopAll(const Negatives& negatives, const Light& light, unsigned seed, const std::string& folder);
+
+/// Measures these files and calibrates. `measure`: but for the transfer, which is the light's.
+Answer CalibrateFiles(const Negatives& negatives, const Light& light, const std::vector<tiltcal::StateFiles>& files, tiltcal::MeasureOptions measure = {}, const tiltcal::CalibrateOptions& choice = {});
+
 /// Develops into `folder`, measures and calibrates. `choice`: what the calibrator is asked.
 Answer CloseTheLoop(const Negatives& negatives, const Light& light, unsigned seed, const std::string& folder, const tiltcal::CalibrateOptions& choice = {});
 

@@ -21,11 +21,12 @@ struct Options
 {
 	std::vector<std::string> only, lights{ "snr200" };
 	std::vector<std::string> refused;
-	int seeds = 1, random = 0, first = 0;
+	int seeds = 1, poses = 1, random = 0, first = 0;
 	std::string work = "closed-loop", out, glass;
 	double focal_length = 0, f_number = 0, stopped_to = 0;
 	bool table = false;
-	double hold = 0, most = HUGE_VAL;
+	double hold = 0, most = HUGE_VAL, megapixels = 0;
+	std::vector<double> within;
 
 	std::string Command() const
 	{
@@ -44,6 +45,10 @@ struct Options
 			words += fmt::format(" --f-number {:g}", f_number);
 		if (stopped_to > 0)
 			words += fmt::format(" --stopped-to {:g}", stopped_to);
+		if (megapixels > 0)
+			words += fmt::format(" --megapixels {:g}", megapixels);
+		if (poses > 1)
+			words += fmt::format(" --poses {}", poses);
 		for (const std::string& light : lights)
 			words += " --light " + light;
 		for (const std::string& name : refused)
@@ -71,16 +76,18 @@ void Print(const Camera& camera, const std::string& light, const Answer& a)
 		std::printf("    %s: %s\n", tiltcal::NameOf(remark.grade), remark.text.c_str());
 }
 
-void Keep(const Options& o, const Result& result, std::vector<Result>& results)
+void Keep(const Options& o, Result result, std::vector<Result>& results)
 {
 	Print(result.camera, result.light, result.answer);
 	std::fflush(stdout);
-	results.push_back(result);
+	result.answer.calibration.task = {};   // all its edges: too many for hundreds of sets
+	results.push_back(std::move(result));
 	if (!o.out.empty())
 		WritePage(o.out, o.Command(), results, o.refused); // whole after every camera: this takes long
 }
 
-void Run(const Options& o, Camera camera, unsigned pose_seed, std::vector<Result>& results)
+/// `noise_seed`: of the first draw.
+void Run(const Options& o, Camera camera, unsigned pose_seed, unsigned noise_seed, std::vector<Result>& results)
 {
 	camera.glass = o.glass;
 	if (o.focal_length > 0)
@@ -106,8 +113,8 @@ void Run(const Options& o, Camera camera, unsigned pose_seed, std::vector<Result
 		for (int k = 0; k < o.seeds; ++k)
 		{
 			const Light light = LightOf(name);
-			const Answer a = CloseTheLoop(negatives, light, unsigned(k + 1), o.work);
-			Keep(o, { negatives.camera, name, a }, results);
+			Answer a = CloseTheLoop(negatives, light, noise_seed + unsigned(k), o.work);
+			Keep(o, { negatives.camera, name, std::move(a) }, results);
 		}
 }
 
@@ -122,6 +129,8 @@ try
 	app.add_option("--only", o.only, "Cameras of the table whose names begin so");
 	app.add_option("--light", o.lights, "Kinds of light");
 	app.add_option("--seeds", o.seeds, "Draws of the noise");
+	app.add_option("--poses", o.poses, "So many sets of poses of every camera of the table, each with a noise of its own");
+	app.add_option("--megapixels", o.megapixels, "Of all cameras, at most, and fewer points of the lens: the same sensors in larger pixels, so that many can be tried");
 	app.add_option("--random", o.random, "So many random cameras too");
 	app.add_option("--first", o.first, "The first of them");
 	app.add_option("--glass", o.glass, "FILE of a lens prescription: the photographs are traced through it");
@@ -133,25 +142,32 @@ try
 	app.add_option("--hold", o.hold, "Exit code 1 when fewer numbers are inside 2 sigma than a true share of so much leaves once in a thousand by chance")->check(CLI::Range(0.0, 1.0));
 	app.add_option("--most", o.most, "Exit code 1 when a number is further off, in sigmas");
 	app.add_option("--refused", o.refused, "A set that is expected to be refused, or not to be photographed: what its camera and light begin with ('45 mm at infinity', 'random 3, snr20'). Any other without an answer: exit code 1");
+	app.add_option("--within", o.within, "LEAST MOST: exit code 1 when the true share of all numbers inside 2 sigma, with 95 %, lies wholly outside of these")->expected(2)->check(CLI::Range(0.0, 1.0));
 	CLI11_PARSE(app, argc, argv);
 	std::vector<Result> results;
 	const bool nothing_asked = o.only.empty() && o.random == 0;
-	for (const Camera& camera : AllCameras())
-		if (o.table || nothing_asked || std::any_of(o.only.begin(), o.only.end(), [&](const std::string& n) { return camera.name.rfind(n, 0) == 0; }))
-			Run(o, camera, 1, results);
+	const auto quick = [&](const Camera& camera) { return o.megapixels > 0 ? Quick(camera, o.megapixels) : camera; };
+	// Poses outside, so that what is done of a run that was stopped is of all cameras.
+	for (int k = 0; k < o.poses; ++k)
+		for (const Camera& camera : AllCameras())
+			if (o.table || nothing_asked || std::any_of(o.only.begin(), o.only.end(), [&](const std::string& n) { return camera.name.rfind(n, 0) == 0; }))
+				Run(o, quick(camera), unsigned(k + 1), unsigned(k + 1), results);
 	for (int k = 0; k < o.random; ++k)
-		Run(o, RandomCamera(unsigned(o.first + k)), unsigned(o.first + k), results);
+		Run(o, quick(RandomCamera(unsigned(o.first + k))), unsigned(o.first + k), 1, results);
 	for (const auto& [name, t] : CoverageByKind(results))
-		std::printf("%-16s inside 2 sigma %4d of %4d, rms %.2f, mean %+.2f\n", name.c_str(), t.inside, t.all, t.rms, t.mean);
+		std::printf("%-16s inside 2 sigma %4d of %4d, %.1f to %.1f %%, rms %.2f, mean %+.2f\n", name.c_str(), t.inside, t.all, 100 * t.Where().low, 100 * t.Where().high, t.rms, t.mean);
 	const Coverage all = CoverageOfAll(results);
-	std::printf("%-16s inside 2 sigma %4d of %4d, %.1f %%, the worst %.1f sigma\n", "all", all.inside, all.all, 100 * all.Share(), all.worst);
+	std::printf("%-16s inside 2 sigma %4d of %4d, %.1f %%, %.1f to %.1f %%, the worst %.1f sigma\n", "all", all.inside, all.all, 100 * all.Share(), 100 * all.Where().low, 100 * all.Where().high, all.worst);
 	const int least = LeastInside(all.all, o.hold);
 	if (o.hold > 0)
 		std::printf("%-16s at least %d: of a true share of %g, fewer once in a thousand\n", "", least, o.hold);
 	const Refusals refusals = RefusalsOf(results, o.refused);
 	for (const Result* r : refusals.unexpected)
 		std::printf("without an answer, which was not expected: %s\n", NameOf(*r).c_str());
-	return all.all > 0 && all.inside >= least && all.worst <= o.most && refusals.unexpected.empty() ? 0 : 1;
+	const MadeUpRims rims = CountMadeUpRims(results);
+	std::printf("rims were given to %d of %d cameras that have none%s\n", rims.with, rims.sets, rims.AreTooMany() ? ": too many" : "");
+	const bool off = !o.within.empty() && all.Where().IsOutside(o.within[0], o.within[1]);
+	return all.all > 0 && all.inside >= least && all.worst <= o.most && !off && !rims.AreTooMany() && refusals.unexpected.empty() ? 0 : 1;
 }
 catch (const std::exception& e)
 {

@@ -45,7 +45,7 @@ Scene SceneOf(const Camera& c, double tilt, double direction)
 	scene.aperture = c.Aperture();
 	scene.lens_normal = synthetic::LensNormal(tilt, direction);
 	scene.k1 = c.k1;
-	scene.lens_points = 800;   // 300 leave 1e-4 of a blur
+	scene.lens_points = c.lens_points;
 	synthetic::FocusOn(scene, c.ImageDistance(), c.focal_length);
 	return scene;
 }
@@ -65,23 +65,32 @@ Look LookAt(const Scene& scene, const tiltcal::Board& board)
 	const double first = board.IsCheckerboard() ? -1 : -0.8;
 	const double columns = board.IsCheckerboard() ? board.columns - 1 : board.CircleColumn(board.columns - 1, board.rows - 1) + 0.8;
 	const double rows = board.IsCheckerboard() ? board.rows - 1 : board.rows - 0.2;
+	std::vector<Eigen::Vector2d> places;
 	for (int i = 0; i <= 4; ++i)
 		for (int j = 0; j <= 4; ++j)
-		{
-			const double x = s * (first + (columns - first) * i / 4.0), y = s * (first + (rows - first) * j / 4.0);
-			const Eigen::Vector3d P = scene.camera_from_board * Eigen::Vector3d(x, y, 0) + scene.origin;
-			if (!(P.z() > 0.05 * scene.origin.norm()))
-				return { false };
-			const Eigen::Vector2d p = synthetic::PixelOf(scene, x, y);
-			const double margin = 0.01 * scene.width;
-			if (p.x() < margin || p.y() < margin || p.x() > scene.width - 1 - margin || p.y() > scene.height - 1 - margin)
-				look.inside = false;
-			const double side = std::min((synthetic::PixelOf(scene, x + s, y) - p).norm(), (synthetic::PixelOf(scene, x, y + s) - p).norm());
-			const double blur = std::max(synthetic::BlurRadius(scene, x, y, 1, 0), synthetic::BlurRadius(scene, x, y, 0, 1));
-			look.square_px = std::min(look.square_px, side);
-			look.least = std::min(look.least, blur / side);
-			look.most = std::max(look.most, blur / side);
-		}
+			places.emplace_back(s * (first + (columns - first) * i / 4.0), s * (first + (rows - first) * j / 4.0));
+	// Whether it is in the picture first: that is quickly seen, and most poses are not.
+	for (const Eigen::Vector2d& at : places)
+	{
+		const double x = at.x(), y = at.y();
+		const Eigen::Vector3d P = scene.camera_from_board * Eigen::Vector3d(x, y, 0) + scene.origin;
+		if (!(P.z() > 0.05 * scene.origin.norm()))
+			return { false };
+		const Eigen::Vector2d p = synthetic::PixelOf(scene, x, y);
+		const double margin = 0.01 * scene.width;
+		if (p.x() < margin || p.y() < margin || p.x() > scene.width - 1 - margin || p.y() > scene.height - 1 - margin)
+			return { false };
+	}
+	for (const Eigen::Vector2d& at : places)
+	{
+		const double x = at.x(), y = at.y();
+		const Eigen::Vector2d p = synthetic::PixelOf(scene, x, y);
+		const double side = std::min((synthetic::PixelOf(scene, x + s, y) - p).norm(), (synthetic::PixelOf(scene, x, y + s) - p).norm());
+		const double blur = std::max(synthetic::BlurRadius(scene, x, y, 1, 0), synthetic::BlurRadius(scene, x, y, 0, 1));
+		look.square_px = std::min(look.square_px, side);
+		look.least = std::min(look.least, blur / side);
+		look.most = std::max(look.most, blur / side);
+	}
 	return look;
 }
 
@@ -131,7 +140,9 @@ bool DrawPose(const Camera& c, Random& random, const std::vector<Scene>& states,
 			Place(scene, MiddleOf(c.board), turn, at, distance);
 			const Look look = LookAt(scene, c.board);
 			const double most = c.board.IsCheckerboard() ? 0.4 : 0.2;
-			good = good && look.inside && look.most < most && look.square_px > 14 && (attempt > 2000 || (look.least < 0.08 && look.most * look.square_px > 2));
+			good = look.inside && look.most < most && look.square_px > 14 && (attempt > 2000 || (look.least < 0.08 && look.most * look.square_px > 2));
+			if (!good)
+				break;
 			out.push_back(scene);
 		}
 		if (good)
