@@ -16,11 +16,6 @@
 namespace tilt_lens
 {
 
-// Rows that are denoised at a time: enough that their margins hardly count.
-static const int BandHeight = 128;
-// Bands that threads make at a time: each takes 37 kB for a pixel of the picture's width.
-static const int MostAtATime = 4;
-
 DenoisedPicture::DenoisedPicture() :
 	part(), extended(), missing(0), making(0), shown(false)
 {
@@ -39,8 +34,8 @@ void DenoisedPicture::Begin(int width, int height, int left, int top, int right,
 	missing = size_t(noisy.width) * noisy.height;
 	recorded.assign(missing, false);
 	// Those that lie in the margins alone are not wanted.
-	bands.assign((noisy.height + BandHeight - 1) / BandHeight, Band::IsDone);
-	std::fill(bands.begin() + (top - e.top) / BandHeight, bands.begin() + (bottom - e.top) / BandHeight + 1, Band::Waits);
+	bands.assign((noisy.height + DenoiseBand - 1) / DenoiseBand, Band::IsDone);
+	std::fill(bands.begin() + (top - e.top) / DenoiseBand, bands.begin() + (bottom - e.top) / DenoiseBand + 1, Band::Waits);
 	sums.assign(bands.size(), 0.0);
 	for(int c = 0; c < PictureChannels; c++)
 		denoised[c].assign(missing, 0.0f);
@@ -74,14 +69,14 @@ void DenoisedPicture::Record(int x, int y, const SampleSums& sums)
 
 void DenoisedPicture::Make(int top, int bottom, boost::mutex::scoped_lock& lock)
 {
-	const size_t last = (bottom - extended.top) / BandHeight;
+	const size_t last = (bottom - extended.top) / DenoiseBand;
 
-	for(size_t band = (top - extended.top) / BandHeight; band <= last; band++)
+	for(size_t band = (top - extended.top) / DenoiseBand; band <= last; band++)
 		while(bands[band] != Band::IsDone)
 		{
 			const size_t next = NextBand(band);
 
-			if((next < bands.size()) && (making < MostAtATime))
+			if((next < bands.size()) && (making < DenoiseThreads))
 				MakeBand(next, lock);
 			else
 				changed.wait(lock);
@@ -103,7 +98,7 @@ size_t DenoisedPicture::NextBand(size_t wanted) const
 
 void DenoisedPicture::MakeBand(size_t band, boost::mutex::scoped_lock& lock)
 {
-	const int top = int(band) * BandHeight, bottom = std::min(top + BandHeight, noisy.height) - 1;
+	const int top = int(band) * DenoiseBand, bottom = std::min(top + DenoiseBand, noisy.height) - 1;
 
 	const auto finish = [&](Band state)
 	{

@@ -49,15 +49,20 @@ std::vector<FrameRow> FrameRows(const FilmRun& film, const Setting& setting)
 {
 	std::vector<FrameRow> rows;
 	for (size_t i = 0; i < film.frames.size(); ++i)
-		rows.push_back({film.frames[i], MakeRow(Pilot(film.runs[i].blocks), film.runs[i].machine, setting)});
+	{
+		const Pilot pilot(film.runs[i].blocks);
+		const Row row = MakeRow(pilot, film.runs[i].machine, setting);
+		rows.push_back({film.frames[i], setting.denoise ? WithDenoise(pilot, film.runs[i].machine, row) : row});
+	}
 	return rows;
 }
 
-/// The answer to --time, --error or --levels, and its row without denoise; nothing where none was asked.
-std::string Answer(const Options& options, const Pilot& pilot, const Machine& machine, const std::vector<Row>& best, std::optional<Row>& row)
+/// The best without denoise that --time, --error or --levels allows; nothing where none was asked.
+std::optional<Row> RawAnswer(const Options& options, const std::vector<Row>& best)
 {
 	const Figure error = [](const Row& r) { return r.predicted.error; };
 	const Figure levels = [](const Row& r) { return r.predicted.Levels(); };
+	std::optional<Row> row;
 	if (options.time > 0)
 	{
 		row = BestWithin(best, options.time);
@@ -70,15 +75,25 @@ std::string Answer(const Options& options, const Pilot& pilot, const Machine& ma
 		if (!row)
 			throw tiltcal::Refused(fmt::format("blur_samples up to 8192 do not reach it; the finest settings are\n{}", AnswerText(best.back())));
 	}
-	else
+	return row;
+}
+
+/// The answer, with denoise where that is better or cheaper, and then what there is without; nothing where none was asked.
+std::string Answer(const Options& options, const Pilot& pilot, const Machine& machine, const std::vector<Row>& all, const std::vector<Row>& best, std::optional<Row>& row)
+{
+	row = RawAnswer(options, best);
+	if (!row)
 		return {};
-	// The same bound with denoise: mostly much cheaper, or much better.
 	std::optional<Row> denoised;
 	if (options.error > 0)
 		denoised = CheapestDenoised(pilot, machine, best, options.error);
-	else if (options.time > 0 && row->setting.max <= pilot.Samples())
-		denoised = WithDenoise(pilot, machine, *row);
-	return AnswerText(*row) + (denoised ? AnswerText(*denoised) : "");
+	else if (options.time > 0)
+		denoised = BestDenoisedWithin(pilot, machine, all, options.time);
+	if (!denoised || (options.time > 0 ? denoised->denoised_error >= row->predicted.error : denoised->wall >= row->wall))
+		return AnswerText(*row);
+	const std::string text = AnswerText(*denoised) + "Without denoise:\n" + AnswerText(*row);
+	row = denoised;
+	return text;
 }
 
 /// The table's column of errors with denoise, where the pilot knows enough, and the time that it takes.
@@ -135,12 +150,13 @@ void Run(const Options& options)
 	Progress progress;
 	progress.Begin("settings");
 	const tiltcal::Stopwatch time;
-	report.best = BestRows(pilot, report.pilot.machine, [&](double share)
+	const std::vector<Row> all = AllRows(pilot, report.pilot.machine, [&](double share)
 	{
 		tiltcal::CheckInterrupt();
 		progress.Show(fmt::format("{:.0f} %{}", 100 * share, TimeLeft(share, time.Seconds())));
 	});
 	progress.End();
+	report.best = BestRows(all);
 	report.rows = TableRows(report.best, 10);
 	for (const Setting& setting : options.own)
 		report.own.push_back(MakeRow(pilot, report.pilot.machine, setting));
@@ -159,7 +175,7 @@ void Run(const Options& options)
 	if (!options.plot.empty())
 		WritePlot(report, options.plot);
 	std::optional<Row> answer;
-	const std::string text = Answer(options, pilot, report.pilot.machine, report.best, answer);
+	const std::string text = Answer(options, pilot, report.pilot.machine, all, report.best, answer);
 	report.frames = FrameRows(film, answer ? answer->setting : report.rows[std::min(StopsPaying(report.rows, options.stop_levels), report.rows.size() - 1)].setting);
 	fmt::print("{}{}", text.empty() ? HeaderText(report) + "\n" + TableText(report) : text, FramesText(report));
 }

@@ -143,7 +143,7 @@ Options ParseCommandLine(CLI::App& app, int argc, char** argv)
 	app.set_version_flag("--version", "tiltcost " TILTCOST_VERSION);
 	app.footer(Footer);
 	app.add_option("SCENE", files, "the scene, and ini files")->required();
-	auto* by_time = app.add_option("--time", time, "the least error within this render time: 60s, 5m, 2h");
+	auto* by_time = app.add_option("--time", time, "the least error within this render time, with denoise\nor without: 60s, 5m, 2h");
 	auto* by_error = app.add_option("--error", error, "the cheapest settings with at most this RMS error: 0.004, 1/255");
 	auto* by_levels = app.add_option("--levels", levels, "the same in levels of an 8-bit picture: 0.5");
 	by_time->excludes(by_error, by_levels);

@@ -134,6 +134,7 @@ PilotRun PilotRenders::Run(const PilotPlan& plan, double seconds, const std::str
 	run.wall = result.wall;
 	run.machine.threads = run.log.threads;
 	run.machine.pixels = run.log.pixels;
+	run.machine.rows = int(run.log.pixels / std::max(1, run.log.width));
 	if (run.log.camera_rays > 0 && samples > 0)
 		run.machine.rays_per_sample = run.log.camera_rays / samples;
 	run.machine.start_cpu = std::max(0.0, result.cpu - trace);
@@ -319,6 +320,7 @@ PilotRun Joined(const FilmRun& film)
 	const double share = 1.0 / double(film.runs.size()), frames = film.range.Count();
 	joined.log = film.runs[0].log;
 	joined.machine.threads = film.runs[0].machine.threads;
+	joined.machine.rows = film.runs[0].machine.rows;
 	joined.machine.rays_per_sample = 0;
 	for (const PilotRun& run : film.runs)
 	{

@@ -117,7 +117,8 @@ std::string FramesText(const Report& report)
 		return {};
 	std::string text = fmt::format("Frames by themselves, {}:\n  frame   RMS error  render time\n", SceneText(report.frames[0].row.setting));
 	for (const FrameRow& frame : report.frames)
-		text += fmt::format("  {:>5}   {:>9.5f}  {:>11}\n", frame.frame, frame.row.predicted.error, DurationText(frame.row.wall));
+		text += fmt::format("  {:>5}   {:>9.5f}  {:>11}\n", frame.frame, frame.row.denoised_error > 0 ? frame.row.denoised_error : frame.row.predicted.error,
+			DurationText(frame.row.wall));
 	return text;
 }
 

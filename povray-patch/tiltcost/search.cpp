@@ -49,10 +49,10 @@ std::vector<Setting> Grid()
 
 }
 
-std::vector<Row> BestRows(const Pilot& pilot, const Machine& machine, const std::function<void(double)>& progress)
+std::vector<Row> AllRows(const Pilot& pilot, const Machine& machine, const std::function<void(double)>& progress)
 {
 	const std::vector<Setting> grid = Grid();
-	std::vector<Row> all, best;
+	std::vector<Row> all;
 	for (const Setting& setting : grid)
 	{
 		all.push_back(MakeRow(pilot, machine, setting));
@@ -68,6 +68,12 @@ std::vector<Row> BestRows(const Pilot& pilot, const Machine& machine, const std:
 			return a.predicted.error < b.predicted.error;
 		return a.setting.min > b.setting.min;
 	});
+	return all;
+}
+
+std::vector<Row> BestRows(const std::vector<Row>& all)
+{
+	std::vector<Row> best;
 	for (const Row& row : all)
 		if (best.empty() || row.predicted.error < best.back().predicted.error)
 			best.push_back(row);
@@ -92,14 +98,56 @@ double DenoiseSecondsPerPixel()
 	return seconds;
 }
 
+double DenoiseWallSeconds(const Machine& machine)
+{
+	const int threads = std::min(machine.threads, tilt_lens::DenoiseThreads);
+	double longest = 1.0 / threads;     // share of the work that the busiest of them has
+	if (machine.rows > 0)
+	{
+		const int bands = (machine.rows + tilt_lens::DenoiseBand - 1) / tilt_lens::DenoiseBand;
+		longest = double((bands + threads - 1) / threads) / bands;
+	}
+	return DenoiseSecondsPerPixel() * machine.pixels * longest;
+}
+
 Row WithDenoise(const Pilot& pilot, const Machine& machine, Row row)
 {
 	row.setting.denoise = true;
 	row.denoised_error = pilot.PredictDenoised(row.setting);
-	// By one thread, whatever the others do.
 	row.cpu += DenoiseSecondsPerPixel() * machine.pixels;
-	row.wall += DenoiseSecondsPerPixel() * machine.pixels;
+	row.wall += DenoiseWallSeconds(machine);
 	return row;
+}
+
+namespace
+{
+
+/// Whether every pixel gets at least as many samples by `a` as by `b`, wherever its own samples would end it.
+bool AsksForMore(const Setting& a, const Setting& b)
+{
+	const auto least = [](const Setting& s) { return s.variance > 0 ? s.min : s.max; };
+	return a.max >= b.max && a.variance <= b.variance && least(a) >= least(b) && (a.max > b.max || a.variance < b.variance || least(a) > least(b));
+}
+
+}
+
+std::optional<Row> BestDenoisedWithin(const Pilot& pilot, const Machine& machine, const std::vector<Row>& all, double seconds)
+{
+	std::vector<Row> within;
+	for (const Row& row : all)
+		if (row.setting.max <= pilot.Samples() && row.wall + DenoiseWallSeconds(machine) <= seconds)
+			within.push_back(row);
+	std::optional<Row> found;
+	for (const Row& row : within)
+	{
+		// Denoising the pilot is slow: what another one within the time has more samples than everywhere is not looked at.
+		if (std::any_of(within.begin(), within.end(), [&](const Row& other) { return AsksForMore(other.setting, row.setting); }))
+			continue;
+		const Row denoised = WithDenoise(pilot, machine, row);
+		if (!found || denoised.denoised_error < found->denoised_error)
+			found = denoised;
+	}
+	return found;
 }
 
 std::optional<Row> CheapestDenoised(const Pilot& pilot, const Machine& machine, const std::vector<Row>& best, double error)

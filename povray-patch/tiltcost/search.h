@@ -22,6 +22,7 @@ struct Machine
 	double start_wall = 0;
 	int threads = 1;
 	double rays_per_sample = 1;         ///< three with wavelengths apart, less where rims stop some
+	int rows = 0;                       ///< that are rendered of a picture; 0: not known, and taken to be many
 };
 
 /// A row of the table.
@@ -36,16 +37,21 @@ struct Row
 
 Row MakeRow(const Pilot& pilot, const Machine& machine, const Setting& setting);
 
-/// The settings that no other one beats in both error and time, the coarsest first. MIN 4 to
-/// 32, MAX 16 to 8192, variance in half decades, and fixed numbers of samples.
-/// `progress`, where given, is called with the share that is done.
-std::vector<Row> BestRows(const Pilot& pilot, const Machine& machine, const std::function<void(double)>& progress = {});
+/// All settings that are tried, the cheapest first. MIN 4 to 32, MAX 16 to 8192, variance in half decades, and fixed
+/// numbers of samples. `progress`, where given, is called with the share that is done.
+std::vector<Row> AllRows(const Pilot& pilot, const Machine& machine, const std::function<void(double)>& progress = {});
+
+/// Those of them that no other one beats in both error and time, the coarsest first.
+std::vector<Row> BestRows(const std::vector<Row>& all);
 
 /// A figure that is bounded: error, levels or time.
 typedef std::function<double(const Row&)> Figure;
 
 /// CPU seconds that denoise takes for a pixel, measured here and now.
 double DenoiseSecondsPerPixel();
+
+/// Seconds by the clock that denoising the whole picture adds: threads share it by bands of rows.
+double DenoiseWallSeconds(const Machine& machine);
 
 /// The same row with denoise: its error, and its time with what denoising takes.
 Row WithDenoise(const Pilot& pilot, const Machine& machine, Row row);
@@ -56,8 +62,12 @@ std::optional<Row> CheapestDenoised(const Pilot& pilot, const Machine& machine, 
 /// Cheapest row whose `figure` is at most `bound`. `best` as of BestRows.
 std::optional<Row> CheapestBelow(const std::vector<Row>& best, const Figure& figure, double bound);
 
-/// Row with the least error among those within `seconds` of wall time.
+/// Row with the least error among those within `seconds` of wall time. `best` as of BestRows.
 std::optional<Row> BestWithin(const std::vector<Row>& best, double seconds);
+
+/// The same with denoise, whose time counts, among all settings that the pilot has samples for. What gives most without is often not what
+/// gives most with it: denoise takes the grain that adaptive samples are spent on.
+std::optional<Row> BestDenoisedWithin(const Pilot& pilot, const Machine& machine, const std::vector<Row>& all, double seconds);
 
 /// The rows of the table: of errors about 0.03 (or the coarsest), 0.02, 0.013, ... those that
 /// give most for their time; at most `count` of them and at least one.

@@ -83,6 +83,39 @@ error)
 		check "$how" $python error $how.exr truth.exr
 	done
 	;;
+highlights)
+	# The same around bright lights, from sharp to discs of many pixels; the mean of eight pictures, since one of few samples may have met
+	# a light or not.
+	lights() {
+		cat > "$1.pov" <<-EOF
+			#version 3.7;
+			global_settings { assumed_gamma 1 }
+			#ifndef (Seed) #declare Seed = 77; #end
+			camera {
+				tilt_lens { focal_plane <0, 0, 6>, <0.5, 0, 1>  aperture_diameter 0.25  seed Seed  $2 }
+				location 0 right x * 4 / 3 up y direction z
+				blur_samples $3
+			}
+			plane { z, 10 pigment { rgb <0.3, 0.25, 0.2> } finish { ambient 1 diffuse 0 } }
+			#declare R = seed(4);
+			#for (I, 0, 89)
+				#local Z = 3 + 6.5 * rand(R);
+				sphere { Z * <1.3 * rand(R) - 0.65, rand(R) - 0.5, 1>, 0.008 * Z pigment { rgb 1 } finish { ambient 4 + 8 * rand(R) diffuse 0 } }
+			#end
+		EOF
+	}
+	lights truth "" 2048
+	render "$ours" truth.exr truth.pov +WT2
+	lights fixed channels 16
+	lights adaptive channels "8, 64 variance 0.0001"
+	lights denoised "channels denoise" 16
+	for how in fixed adaptive denoised; do
+		for seed in 1 2 3 4 5 6 7 8; do
+			render "$ours" $how$seed.exr $how.pov Declare=Seed=$seed
+		done
+		check "$how" $python highlights $how truth.exr
+	done
+	;;
 radiosity)
 	# The first pass of a denoised picture is no pretrace: as many samples of radiosity are kept as without.
 	for how in "" denoise; do

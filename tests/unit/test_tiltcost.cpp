@@ -8,6 +8,7 @@
 #include "report.h"
 #include "search.h"
 
+#include "lens/denoise.h"
 #include "lens/pilot.h"
 
 #include <gmock/gmock.h>
@@ -248,7 +249,7 @@ TEST(Search, RowsScaleToThePicture)
 TEST(Search, AnswersAndTable)
 {
 	const Pilot pilot(ParsePilot(PowerLaw(0, 64, 0.5, 4e-3, 1.5) + PowerLaw(8, 64, 0.3, 4e-3, 1.5)));
-	const std::vector<Row> best = BestRows(pilot, Machine{1e6, 0, 0, 1});
+	const std::vector<Row> best = BestRows(AllRows(pilot, Machine{1e6, 0, 0, 1}));
 	ASSERT_GT(best.size(), 5u);
 	for (size_t i = 1; i < best.size(); ++i)
 	{
@@ -275,9 +276,80 @@ TEST(Search, AnswersAndTable)
 	EXPECT_EQ(StopsPaying(rows, 1e-9), rows.size());
 }
 
+namespace
+{
+
+/// A smooth field with much noise, which adaptive samples are spent on and denoise takes; or pixels that differ, with less noise, which it must
+/// leave.
+std::string Noisy(int left, bool smooth, int samples)
+{
+	std::mt19937 random(unsigned(left) + 3);
+	std::normal_distribution<double> normal(0, 1);
+	std::vector<double> sums(Side * Side);
+	return BlockText(left, Side * Side * samples * 1e-6, samples, [&, sums](int pixel, int k) mutable
+	{
+		const double sigma = smooth ? 0.2 : 0.06, truth = smooth ? 0.5 : 0.3 + 0.4 * ((pixel % Side + pixel / Side) % 2);
+		for (int i = k > 0 ? 1 << (k - 1) : 0; i < 1 << k; ++i)
+			sums[size_t(pixel)] += sigma * normal(random);
+		return Grey(truth + sums[size_t(pixel)] / (1 << k), sigma * sigma);
+	});
+}
+
+}
+
+// Against all settings, each with denoise: what is not looked at would not have been better by more than what the pilot's noise
+// makes of two settings that are as good (a few per cent of these 1024 pixels).
+TEST(Search, DenoisedWithinATimeIsTheBestOfAllSettings)
+{
+	const Pilot pilot(ParsePilot(Noisy(0, true, 256) + Noisy(16, false, 256) + Noisy(32, true, 256) + Noisy(48, false, 256)));
+	const Machine machine{1e6, 0, 0, 1};
+	const std::vector<Row> all = AllRows(pilot, machine), best = BestRows(all);
+	std::vector<Row> denoised;
+	for (const Row& row : all)
+		if (row.setting.max <= pilot.Samples())
+			denoised.push_back(WithDenoise(pilot, machine, row));
+	int gained = 0;
+	for (const double trace : {12.0, 19.0, 37.0, 74.0, 150.0})
+	{
+		const double seconds = trace + DenoiseWallSeconds(machine);
+		const auto found = BestDenoisedWithin(pilot, machine, all, seconds);
+		ASSERT_TRUE(found) << trace;
+		EXPECT_LE(found->wall, seconds);
+		EXPECT_TRUE(found->setting.denoise);
+		double least = 1;
+		for (const Row& row : denoised)
+			if (row.wall <= seconds)
+				least = std::min(least, row.denoised_error);
+		EXPECT_LE(found->denoised_error, 1.03 * least) << trace;
+		// What was asked before: the best without denoise, denoised.
+		const auto raw = BestWithin(best, seconds);
+		ASSERT_TRUE(raw);
+		gained += raw->setting.max > pilot.Samples() || pilot.PredictDenoised(raw->setting) > 1.05 * found->denoised_error;
+	}
+	EXPECT_GE(gained, 1) << "the two searches are one here: nothing shown";
+	// Time for denoising counts.
+	EXPECT_FALSE(BestDenoisedWithin(pilot, machine, all, all.front().wall));
+}
+
+TEST(Search, ThreadsShareDenoisingByBands)
+{
+	Machine machine{1e6, 0, 0, 1};
+	const double one = DenoiseWallSeconds(machine);
+	const auto share = [&](int threads, int rows)
+	{
+		machine.threads = threads;
+		machine.rows = rows;
+		return DenoiseWallSeconds(machine) / one;
+	};
+	EXPECT_DOUBLE_EQ(share(2, 0), 0.5);
+	EXPECT_DOUBLE_EQ(share(16, 0), 1.0 / tilt_lens::DenoiseThreads);
+	EXPECT_DOUBLE_EQ(share(4, tilt_lens::DenoiseBand), 1);
+	EXPECT_DOUBLE_EQ(share(2, 3 * tilt_lens::DenoiseBand), 2.0 / 3);
+}
+
 TEST(Search, APictureWithoutErrorHasOneRow)
 {
-	const std::vector<Row> best = BestRows(Pilot(ParsePilot(Flat(0, 1, 64, 0.5, 0))), Machine{1e6, 0, 0, 1});
+	const std::vector<Row> best = BestRows(AllRows(Pilot(ParsePilot(Flat(0, 1, 64, 0.5, 0))), Machine{1e6, 0, 0, 1}));
 	EXPECT_EQ(TableRows(best, 10).size(), 1u);
 }
 
