@@ -3,7 +3,6 @@
 #include "edge/edge_shape.h"
 
 #include "edge/fit_response.h"
-#include "edge/soft_radius.h"
 
 #include <Eigen/Dense>
 
@@ -23,8 +22,7 @@ std::optional<EdgeShape> ShapeOfEdge(const Edge& edge)
 	{
 		const ProfileBin& bin = edge.profile[size_t(i)];
 		const double root = std::sqrt(double(bin.count));
-		by.row(i) << ByFit(bin.x, edge.nx, edge.ny, SoftDiameter(edge.blur)), ShapeResponse(bin.x, 0.5 * edge.blur, std::abs(edge.nx), std::abs(edge.ny)).transpose();
-		by.row(i) *= root;
+		by.row(i) = root * ByFitAndShape(bin.x, edge.nx, edge.ny, edge.blur);
 		value[i] = root * bin.value;
 	}
 	const Eigen::Matrix<double, 4 + SHAPES, 4 + SHAPES> inverse = (by.transpose() * by).inverse();

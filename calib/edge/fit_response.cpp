@@ -42,13 +42,13 @@ Eigen::MatrixXd Derivatives(const Eigen::VectorXd& x, double nx, double ny, doub
 
 Eigen::MatrixXd PseudoInverse(const Eigen::MatrixXd& m) { return m.colPivHouseholderQr().solve(Eigen::MatrixXd::Identity(m.rows(), m.rows())); }
 
-/// What a change of the light at each sample does to the shapes, beside `by` of the fit.
-Eigen::MatrixXd ToShapes(const Eigen::VectorXd& x, const Eigen::MatrixXd& by, double nx, double ny, double radius)
+/// What a change of the light at each sample does to the shapes, with the fit free.
+Eigen::MatrixXd ToShapes(const Eigen::VectorXd& x, double nx, double ny, double diameter)
 {
-	Eigen::MatrixXd all(x.size(), by.cols() + SHAPES);
+	Eigen::MatrixXd by(x.size(), 4 + SHAPES);
 	for (Eigen::Index i = 0; i < x.size(); ++i)
-		all.row(i) << by.row(i), ShapeResponse(x[i], radius, std::abs(nx), std::abs(ny)).transpose();
-	return PseudoInverse(all).bottomRows(SHAPES);
+		by.row(i) = ByFitAndShape(x[i], nx, ny, diameter);
+	return PseudoInverse(by).bottomRows(SHAPES);
 }
 
 }
@@ -59,6 +59,13 @@ Eigen::RowVector4d ByFit(double x, double nx, double ny, double soft)
 	return { -e.d_position, 0.5 * e.d_radius, 1 - e.value, e.value };
 }
 
+Eigen::Matrix<double, 1, 4 + SHAPES> ByFitAndShape(double x, double nx, double ny, double diameter)
+{
+	Eigen::Matrix<double, 1, 4 + SHAPES> by;
+	by << ByFit(x, nx, ny, SoftDiameter(diameter)), ShapeResponse(x, 0.5 * diameter, std::abs(nx), std::abs(ny)).transpose();
+	return by;
+}
+
 FitResponse::FitResponse(double nx, double ny, double diameter, double reach, double own, bool shaped)
 {
 	// Discs that are narrower yet are taken to be as narrow as the samples see.
@@ -67,7 +74,7 @@ FitResponse::FitResponse(double nx, double ny, double diameter, double reach, do
 	const Eigen::Index n = x.size();
 	// What a change of the light at each sample does to the four.
 	const Eigen::MatrixXd by = Derivatives(x, nx, ny, told), pseudo_inverse = PseudoInverse(by);
-	const Eigen::MatrixXd to_shapes = shaped ? ToShapes(x, by, nx, ny, 0.5 * diameter) : Eigen::MatrixXd(0, n);
+	const Eigen::MatrixXd to_shapes = shaped ? ToShapes(x, nx, ny, diameter) : Eigen::MatrixXd(0, n);
 	const double box_a = Widened(nx, own), box_b = Widened(ny, own), most = reach + box_a + box_b;
 	first = -most;
 	step = 2 * most / (NODES - 1);

@@ -18,6 +18,9 @@ namespace tiltcal
 /// Of the light at a distance x from an edge by place, soft diameter and both plateaus; `soft`: its soft diameter.
 Eigen::RowVector4d ByFit(double x, double nx, double ny, double soft);
 
+/// The same and by the shapes, of an edge of this blur diameter.
+Eigen::Matrix<double, 1, 4 + SHAPES> ByFitAndShape(double x, double nx, double ny, double diameter);
+
 /// To first order about the fit that was made, the fit's place and soft diameter (soft_radius.h) are sums over the light: a point of light that
 /// falls x px to the bright side of the fitted line, all light being 1, moves them by place(x) and soft(x). By least squares over pixels at
 /// distances up to `reach`, with both plateaus free. So a halo, a tail or a sharp core counts as the fit counts it, not by its variance.

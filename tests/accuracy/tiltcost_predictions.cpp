@@ -7,6 +7,7 @@
 // Without options at the size and with the blocks of COSTS.md: 120 of 1920 x 1080 pixels. --small is ctest's: there seconds are shown, not
 // judged, for renders of tenths of a second say more of what else the machine does than of the prediction; rays are the same on every machine.
 
+#include "base/files.h"
 #include "program/process.h"
 #include "support/picture.h"
 #include "support/tiltcost_table.h"
@@ -18,7 +19,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <thread>
 
@@ -108,19 +108,11 @@ struct Places
 	Effort effort = Full;
 };
 
-std::string Contents(const fs::path& file)
-{
-	std::ifstream in(file, std::ios::binary);
-	if (!in)
-		throw std::runtime_error("cannot read " + file.string());
-	return {std::istreambuf_iterator<char>(in), {}};
-}
-
 double RunChecked(const std::vector<std::string>& command, const fs::path& log)
 {
 	const tiltcal::ProcessResult result = tiltcal::RunProcess({command, "", {"LC_ALL=C"}, "", log.string()});
 	if (result.exit_code != 0)
-		throw std::runtime_error(fmt::format("{} failed:\n{}", command[0], Contents(log)));
+		throw std::runtime_error(fmt::format("{} failed:\n{}", command[0], tiltcal::ReadText(log.string(), "a log")));
 	return result.cpu;
 }
 
@@ -145,7 +137,7 @@ std::vector<std::string> SceneWords(const Places& places, const Scene& scene, co
 			declare("Denoise", row.denoise)};
 	}
 	const fs::path folder = places.scenes / scene.name, file = places.out / (scene.name + ".pov");
-	std::string text = Contents(folder / (scene.name + ".pov"));
+	std::string text = tiltcal::ReadText((folder / (scene.name + ".pov")).string(), "a scene");
 	Replace(text, "tilt_lens {", fmt::format("tilt_lens {{ seed {} {}", seed, row.denoise ? "denoise" : ""));
 	Replace(text, "blur_samples 16, 256", row.min > 0 ? fmt::format("blur_samples {}, {}", row.min, row.max) : fmt::format("blur_samples {}", row.max));
 	Replace(text, "variance 0.00002", fmt::format("variance {:.9g}", row.variance));
@@ -180,7 +172,7 @@ Rendered Render(const Places& places, const Scene& scene, const Row& row, int se
 		command.push_back(word);
 	Rendered result;
 	result.cpu = RunChecked(command, places.out / "povray.log");
-	result.rays = Said(Contents(places.out / "povray.log"), "Camera Rays: ");
+	result.rays = Said(tiltcal::ReadText((places.out / "povray.log").string(), "a log"), "Camera Rays: ");
 	result.picture = ReadPpm(picture.string());
 	if (result.picture.width != places.effort.width || result.picture.height != places.effort.height)
 		throw std::runtime_error("POV-Ray rendered another size");
@@ -202,7 +194,7 @@ Predicted RunTiltcost(const Places& places, const Scene& scene, unsigned threads
 	RunChecked(command, log);
 
 	Predicted predicted;
-	const std::string text = Contents(log);
+	const std::string text = tiltcal::ReadText(log.string(), "a log");
 	predicted.share = std::min(1.0, Said(text, "Pilot: ") * 16 * 16 / (double(places.effort.width) * places.effort.height)); // blocks at the rim are cut
 	if (predicted.share < 1)   // of a whole picture nothing is left to chance
 	{

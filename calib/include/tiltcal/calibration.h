@@ -8,6 +8,8 @@
 #define TILTCAL_CALIBRATION_H
 
 #include <tiltcal/api.h>
+#include <tiltcal/checks.h>
+#include <tiltcal/estimate.h>
 #include <tiltcal/frames.h>
 #include <tiltcal/next_photographs.h>
 #include <tiltcal/task.h>
@@ -22,12 +24,6 @@
 
 namespace tiltcal
 {
-
-/// An estimate and its standard deviation.
-struct Estimate
-{
-	double value = 0, sigma = 0;
-};
 
 /// Where one state's sensor stands, and its boards. Vectors by photograph.
 struct StateGeometry
@@ -52,17 +48,6 @@ struct Geometry
 	Distortion distortion{}, distortion_sigma{};
 	double rms = 0;                ///< reprojection, px
 	std::vector<StateGeometry> states;
-};
-
-/// The lens in one state.
-struct StateLens
-{
-	bool converged = true;
-	bool chosen_by_power = false;   ///< the blur fits two planes; the one that keeps f was taken
-	Vec3<double> q{ 0, 0, 0 }, q_sigma{ 0, 0, 0 };   ///< plane of focus, 1/mm
-	Estimate lens_tilt, focal_plane_tilt, tilt_direction, focus_distance, focal_length;   ///< near infinity q_z says more than U: U may be huge, or < 0
-	double rms_blur = 0;     ///< px, measured against predicted
-	int edges = 0;
 };
 
 /// Of two estimates of a fit, by their names in calibration.json.
@@ -249,69 +234,6 @@ struct Effect
 	double held_out_without = 0, held_out_with = 0;   ///< 0: not known
 	std::string unit;                        ///< of the latter
 	std::string note;                        ///< more to say; may be empty
-};
-
-/// What the camera did to the light.
-struct LightCheck
-{
-	double clipped_share = 0;   ///< of the edges: their bright side is at the file's white level
-	Estimate sharpening;        ///< px^2: how much smaller squared blur diameters are than blur can make them
-	/// How far blurred edges lie to the bright side of where the camera puts them, over their blur's radius: 0 in linear light.
-	Estimate bend;
-	std::optional<Estimate> exponent;   ///< values that were this power of light would make this bend; none: no power would, or nothing is known
-};
-
-/// How well one photograph agrees with the rest.
-struct PhotographCheck
-{
-	size_t state = 0, photo = 0, edges = 0;
-	double rms_places = 0, rms_blur = 0;   ///< of its corners and of its edges' blur, px
-	double places_typical = 0, blur_typical = 0;   ///< the same of the other photographs, their median, px
-	std::optional<size_t> fits_state;      ///< its blur is that of this other state
-	std::optional<std::pair<size_t, size_t>> same_as;   ///< state and photograph that was measured alike, noise and all
-	bool odd_places = false, odd_blur = false;   ///< it stands out
-	size_t stop = 0;   ///< Photo::stop
-};
-
-/// What the corners say of the board's shape: the same fit with a board that need not be as it was told. Nothing else uses it.
-struct BoardCheck
-{
-	bool known = false;
-	Estimate widening;             ///< columns over rows of its squares, minus 1; pixels that are not square look the same
-	Estimate bend_along_columns, bend_along_rows, twist;   ///< height of the arc over the board's width and height, and of its corners, mm
-	double rms_flat = 0, rms_free = 0;   ///< of the corners, px
-	double w_change = 0;           ///< of the image distance, mm
-};
-
-/// What blur says of the untilted state's tilt when it is let free.
-struct UntiltedCheck
-{
-	bool known = false;
-	Estimate lens_tilt, tilt_direction;   ///< degrees
-	std::optional<StateLens> by_places;   ///< what the places of edges say of it, blur aside; none: nothing
-};
-
-enum class Grade
-{
-	GOOD,   ///< nothing speaks against it
-	FAIR,   ///< the numbers hold within what the remarks say
-	POOR    ///< photograph more before relying on it
-};
-
-/// "good", "fair", "poor".
-TILTCAL_API const char* NameOf(Grade grade);
-
-struct Remark
-{
-	Grade grade;
-	std::string text;   ///< what, and what to photograph to mend it
-};
-
-/// How far a calibration can be trusted.
-struct Verdict
-{
-	Grade grade = Grade::GOOD;   ///< the worst of the remarks
-	std::vector<Remark> remarks;
 };
 
 /// How a real lens stands in a state. The image distance is from the exit pupil to the sensor, along the sensor's normal.

@@ -9,6 +9,7 @@
 // variance are replaced. Fails when more blocks are worse, significantly in the mean of all seeds, than chance allows (block_harm.h): by more than
 // a tenth, or at all.
 
+#include "base/files.h"
 #include "no_harm/block_harm.h"
 #include "support/run_povray.h"
 
@@ -18,7 +19,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <regex>
 #include <stdexcept>
 
@@ -44,14 +44,6 @@ struct Setting
 // Few samples, whose kernels are averaged; more, for which one is chosen (lens/denoise.h); and both in a picture.
 const Setting Settings[] = {{0, 8, 0}, {0, 32, 0}, {4, 64, 0.001}};
 
-std::string Contents(const fs::path& file)
-{
-	std::ifstream in(file, std::ios::binary);
-	if (!in)
-		throw std::runtime_error("cannot read " + file.string());
-	return {std::istreambuf_iterator<char>(in), {}};
-}
-
 /// The scene as one that takes Race_Seed, Race_Denoise, Race_Min, Race_Max and Race_Variance from the command line.
 std::string Prepared(const std::string& text)
 {
@@ -73,7 +65,7 @@ public:
 		povray(povray_), work(work_), options(options_)
 	{
 		fs::create_directories(work);
-		std::ofstream(work / "scene.pov") << Prepared(Contents(scene_file));
+		std::ofstream(work / "scene.pov") << Prepared(tiltcal::ReadText(scene_file.string(), "a scene"));
 		options.push_back("+L" + scene_file.parent_path().string());
 	}
 

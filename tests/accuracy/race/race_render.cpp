@@ -2,13 +2,14 @@
 
 #include "race_render.h"
 
+#include "base/files.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <fstream>
 #include <future>
-#include <iterator>
 #include <map>
 #include <mutex>
 #include <stdexcept>
@@ -17,14 +18,6 @@ namespace fs = std::filesystem;
 
 namespace
 {
-
-std::string Contents(const fs::path& path)
-{
-	std::ifstream file(path, std::ios::binary);
-	if (!file)
-		throw std::runtime_error("cannot read " + path.string());
-	return {std::istreambuf_iterator<char>(file), {}};
-}
 
 // FNV-1a: keys of files in a cache, nothing that anybody attacks.
 std::uint64_t Hash(const std::string& text)
@@ -42,7 +35,7 @@ std::uint64_t HashOfProgram(const fs::path& path)
 	static std::map<fs::path, std::uint64_t> known;
 	const std::lock_guard<std::mutex> lock(mutex);
 	const auto found = known.find(path);
-	return found != known.end() ? found->second : known[path] = Hash(Contents(path));
+	return found != known.end() ? found->second : known[path] = Hash(tiltcal::ReadText(path.string(), "POV-Ray", size_t(1) << 30));
 }
 
 Picture Cropped(const Picture& picture, int left, int top, int width, int height)
@@ -130,7 +123,7 @@ Rendered Renderer::Render(const Setting& setting) const
 
 std::string Renderer::Key(const fs::path& program, const Setting& setting) const
 {
-	std::string text = Contents(scene.file) + Contents(scene.file.parent_path() / "race_camera.inc");
+	std::string text = tiltcal::ReadText(scene.file.string(), "a scene") + tiltcal::ReadText((scene.file.parent_path() / "race_camera.inc").string(), "the race's camera");
 	text += fmt::format("{} {}\n", judged.width, judged.height);
 	for (const std::string& word : Command("", setting, width, height, judged))
 		if (word.compare(0, 2, "+I") != 0 && word.compare(0, 2, "+L") != 0)
