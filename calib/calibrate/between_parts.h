@@ -25,7 +25,7 @@ struct PartAnswer
 /// it, the sharper and the more blurred half. Those that converge; calibration.solution is an exact model's, jointly refined.
 std::vector<PartAnswer> SolveParts(const Calibration& calibration);
 
-/// Where blur misfits by more than noise and no real lens is used, what the thin lens leaves out is the same in every photograph: neither
+/// Where blur or places misfit by more than noise and no real lens is used, what the thin lens leaves out is the same in every photograph: neither
 /// residuals nor the photographs against each other scatter by it. It differs from part to part of the picture and of the blur, so w, f, U, d and tilts
 /// are put elsewhere by parts of the edges; the sigmas of `told` are widened in quadrature by the farthest part's distance, less what that part
 /// scatters itself. `covariance` and `sigma_by_photographs` stay what scatters.

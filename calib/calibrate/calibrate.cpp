@@ -13,6 +13,7 @@
 #include "calibrate/check_untilted.h"
 #include "calibrate/exif_check.h"
 #include "calibrate/floor_shape.h"
+#include "calibrate/left_over.h"
 #include "calibrate/next_photographs.h"
 #include "calibrate/stops_of_photographs.h"
 #include "calibrate/use_threads.h"
@@ -209,7 +210,7 @@ const double REAL_LENS_IS_WORTH_IT = 0.95;
 void FindRealLens(const CalibrateOptions& o, Calibration& c)
 {
 	const bool asked = o.model == Model::LENS;
-	if (!asked && (o.model || o.effects.kind != EffectChoice::AUTO || !c.refined || !AberrationsAreLeftOver(c)))
+	if (!asked && (o.model || o.effects.kind != EffectChoice::AUTO || !c.refined || !(BlurIsLeftOver(c) || PlacesAreLeftOver(c))))
 		return;
 	o.log.Info("solving one real lens, with aberrations, for all states");
 	RealLenses found = FindRealLens(c.task, c.geometry, c.solution, WrittenRims(c), [&](RealLens& lens)
@@ -266,10 +267,10 @@ void WidenByFloor(const CalibrateOptions& o, Calibration& c)
 			WidenByParts(whole, { *other }, *told);
 }
 
-/// Sigmas of a thin lens whose photographs misfit by more than noise.
+/// Sigmas of a thin lens whose photographs misfit by more than noise, in blur or in places.
 void WidenWhereGlassShows(const CalibrateOptions& o, Calibration& c)
 {
-	if (c.solution.model == Model::PAPER || !c.refined || o.refinement == Refinement::NONE || c.RealLensIsUsed() || !AberrationsAreLeftOver(c))
+	if (c.solution.model == Model::PAPER || !c.refined || o.refinement == Refinement::NONE || c.RealLensIsUsed() || !(BlurIsLeftOver(c) || PlacesAreLeftOver(c)))
 		return;
 	o.log.Info("solving parts of the edges: how far they put the lens apart");
 	const Solution whole = c.solution;

@@ -4,12 +4,12 @@
 #include "calibrate/verdict_remarks.h"
 
 #include "calibrate/check_light.h"
+#include "calibrate/left_over.h"
 #include "calibrate/one_photograph.h"
 
 #include "solve/blur_fit.h"
 #include "solve/each_edge.h"
 #include <tiltcal/calibrate.h>
-#include "base/robust.h"
 #include "model/focus_words.h"
 #include "model/tilt_angles.h"
 
@@ -25,17 +25,6 @@ namespace tiltcal
 
 namespace
 {
-
-/// A misfit of blur is noise up to so much of it.
-const double MOST_OF_NOISE = 3;
-
-/// Of one edge's blur, the middle one of all; infinite without edges.
-double NoiseOfBlur(const Task& task)
-{
-	std::vector<double> noise;
-	ForEachEdge(task, [&](size_t, size_t, const Edge& e) { noise.push_back(e.blur_sigma); });
-	return noise.empty() ? std::numeric_limits<double>::infinity() : Median(std::move(noise));
-}
 
 class Judgement
 {
@@ -234,8 +223,6 @@ private:
 };
 
 }
-
-bool AberrationsAreLeftOver(const Calibration& c) { return c.solution.rms_blur > MOST_OF_NOISE * NoiseOfBlur(c.task); }
 
 Verdict Judge(const Calibration& calibration)
 {

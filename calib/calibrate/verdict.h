@@ -15,9 +15,6 @@ namespace tiltcal
 /// model: nothing.
 Verdict Judge(const Calibration& calibration);
 
-/// Whether the thin lens fits the blur worse than its noise alone would make it.
-bool AberrationsAreLeftOver(const Calibration& calibration);
-
 }
 
 #endif

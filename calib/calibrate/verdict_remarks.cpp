@@ -2,8 +2,8 @@
 
 #include "calibrate/verdict_remarks.h"
 
-#include "base/robust.h"
 #include "calibrate/check_light.h"
+#include "calibrate/left_over.h"
 
 #include <fmt/format.h>
 
@@ -46,16 +46,6 @@ void AddOdd(const Calibration& c, const PhotographCheck& p, std::vector<Remark>&
 		remarks.push_back({ Grade::POOR, who + fmt::format("its corners fit to {:.2f} px, those of the others to {:.2f} px: is it of the same camera and board? Leave it out, and look", p.rms_places, p.places_typical) });
 }
 
-double TypicalNoise(const Task& task)
-{
-	std::vector<double> noise;
-	for (const State& state : task.states)
-		for (const Photo& photo : state.photos)
-			for (const Corner& corner : photo.corners)
-				noise.push_back(corner.sigma);
-	return noise.empty() ? 0 : Median(std::move(noise));
-}
-
 /// "the squares are 1.00 +- 0.01 % wider than high", ..; empty where nothing is sure.
 std::string ShapeWords(const BoardCheck& b)
 {
@@ -90,16 +80,15 @@ std::vector<Remark> JudgePhotographs(const Calibration& c)
 std::vector<Remark> JudgeBoard(const Calibration& c)
 {
 	std::vector<Remark> remarks;
-	const double noise = std::sqrt(2.0) * TypicalNoise(c.task);   // of both coordinates, as rms is
 	const BoardCheck& b = c.board_check;
 	const std::string shape = b.known ? ShapeWords(b) : "";
 	const double left = Share(b.rms_free, b.rms_flat);
 	if (!shape.empty() && left < WORTH_SAYING)
 		remarks.push_back({ left < DECIDES ? Grade::POOR : Grade::FAIR, fmt::format("the corners fit to {:.3f} px, and to {:.3f} px if the board is not as it was told: {}. The image distance would change by {:.3f} mm. "
 			"Measure the print in both directions, and glue it to glass", b.rms_flat, b.rms_free, shape, b.w_change) });
-	else if (c.geometry.rms > 3 * noise)
-		remarks.push_back({ Grade::GOOD, fmt::format("the corners fit to {:.3f} px, their noise is {:.3f} px: places are limited by what the camera model leaves out, and the sigmas hold that only as far as it scatters",
-			c.geometry.rms, noise) });
+	else if (PlacesAreLeftOver(c))
+		remarks.push_back({ Grade::GOOD, fmt::format("the corners fit to {:.3f} px, their noise is {:.3f} px: places are limited by what the camera model leaves out, and the sigmas hold that as far as parts of the edges put the lens apart",
+			c.geometry.rms, NoiseOfPlaces(c.task)) });
 	return remarks;
 }
 
