@@ -210,7 +210,7 @@ const double REAL_LENS_IS_WORTH_IT = 0.95;
 void FindRealLens(const CalibrateOptions& o, Calibration& c)
 {
 	const bool asked = o.model == Model::LENS;
-	if (!asked && (o.model || o.effects.kind != EffectChoice::AUTO || !c.refined || !(BlurIsLeftOver(c) || PlacesAreLeftOver(c))))
+	if (!asked && (o.model || o.effects.kind != EffectChoice::AUTO || !c.refined || !MoreThanNoiseIsLeftOver(c)))
 		return;
 	o.log.Info("solving one real lens, with aberrations, for all states");
 	RealLenses found = FindRealLens(c.task, c.geometry, c.solution, WrittenRims(c), [&](RealLens& lens)
@@ -270,7 +270,7 @@ void WidenByFloor(const CalibrateOptions& o, Calibration& c)
 /// Sigmas of a thin lens whose photographs misfit by more than noise, in blur or in places.
 void WidenWhereGlassShows(const CalibrateOptions& o, Calibration& c)
 {
-	if (c.solution.model == Model::PAPER || !c.refined || o.refinement == Refinement::NONE || c.RealLensIsUsed() || !(BlurIsLeftOver(c) || PlacesAreLeftOver(c)))
+	if (c.solution.model == Model::PAPER || !c.refined || o.refinement == Refinement::NONE || c.RealLensIsUsed() || !MoreThanNoiseIsLeftOver(c))
 		return;
 	o.log.Info("solving parts of the edges: how far they put the lens apart");
 	const Solution whole = c.solution;

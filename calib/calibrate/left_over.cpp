@@ -37,8 +37,8 @@ double NoiseOfPlaces(const Task& task)
 	return std::sqrt(2.0) * Middle(std::move(noise));
 }
 
-bool BlurIsLeftOver(const Calibration& c) { return c.solution.rms_blur > MOST_OF_NOISE * NoiseOfBlur(c.task); }
-
 bool PlacesAreLeftOver(const Calibration& c) { return c.geometry.rms > MOST_OF_NOISE * NoiseOfPlaces(c.task); }
+
+bool MoreThanNoiseIsLeftOver(const Calibration& c) { return PlacesAreLeftOver(c) || c.solution.rms_blur > MOST_OF_NOISE * NoiseOfBlur(c.task); }
 
 }

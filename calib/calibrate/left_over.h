@@ -19,9 +19,9 @@ double NoiseOfBlur(const Task& task);
 /// Of one corner, px, of both its coordinates as Geometry::rms is; the middle one of all, infinite without corners.
 double NoiseOfPlaces(const Task& task);
 
-/// The thin lens fits blur, or puts corners, worse than their noise alone would make it.
-bool BlurIsLeftOver(const Calibration& calibration);
+/// The thin lens puts corners worse than their noise alone would make it; it does, or so fits blur.
 bool PlacesAreLeftOver(const Calibration& calibration);
+bool MoreThanNoiseIsLeftOver(const Calibration& calibration);
 
 }
 
