@@ -130,6 +130,8 @@ void SolveExact(const Task& measured, const std::optional<Model>& model, const C
 		c.solution = solve(task, c.geometry);
 		options.lens_normal = LensNormals(c.solution);
 	}
+	if (model && c.solution.left_out.empty())
+		c.solution = SolveLeavingOut(*model, task, c.geometry);
 	if (!model)
 	{
 		o.log.Info("comparing models");
@@ -207,13 +209,13 @@ const double REAL_LENS_IS_WORTH_IT = 0.95;
 
 /// A real lens where it was asked for; else where a thin one leaves over more than noise, the choice is free, and photographs left out are
 /// predicted better by REAL_LENS_IS_WORTH_IT. With the rims that are written, which decide what of the opening an edge is seen through.
-void FindRealLens(const CalibrateOptions& o, Calibration& c)
+void FindRealLens(const Task& through_rims, const CalibrateOptions& o, Calibration& c)
 {
 	const bool asked = o.model == Model::LENS;
 	if (!asked && (o.model || o.effects.kind != EffectChoice::AUTO || !c.refined || !MoreThanNoiseIsLeftOver(c)))
 		return;
 	o.log.Info("solving one real lens, with aberrations, for all states");
-	RealLenses found = FindRealLens(c.task, c.geometry, c.solution, WrittenRims(c), [&](RealLens& lens)
+	RealLenses found = FindRealLens(c.task, through_rims, c.geometry, c.solution, WrittenRims(c), [&](RealLens& lens)
 	{
 		lens.used = asked || (lens.held_out > 0 && lens.held_out < REAL_LENS_IS_WORTH_IT * lens.held_out_thin);
 		if (!lens.used || !o.scene_lens)
@@ -291,6 +293,38 @@ void WidenByUnknownPupils(Calibration& c)
 		WidenByPupils(*told);
 }
 
+/// From a camera on: refined, and what is checked of its photographs.
+void RefineAndCheck(const CalibrateOptions& o, Calibration& c)
+{
+	Refine(c.task, o, c);
+	AddBoardSize(c);
+	c.photographs = CheckPhotographs(c);
+	c.board_check = CheckBoard(c.task, c.geometry);
+	c.untilted_check = CheckUntilted(c);
+}
+
+/// A thin lens once more from what its edges would be without the rims that were found, which cut blurs and move edges. A real lens sees edges through what rims leave.
+void SolveThroughRims(const Task& measured, const CalibrateOptions& o, Calibration& c)
+{
+	std::vector<tilt_lens::Rim> rims;
+	for (const RimEstimate& rim : WrittenRims(c))
+		rims.push_back({ rim.radius_mm.value, rim.distance_mm.value });
+	if (rims.empty() || !c.refined)
+		return;
+	o.log.Info("solving geometry and lens once more, with the rims that vignette");
+	c.task = WithoutEdgeBias(measured, c.geometry, c.solution, rims);
+	GeometryOptions options;
+	options.may_distort = !o.effects.Excludes(EffectId::DISTORTION);
+	options.lens_normal = LensNormals(c.solution);
+	options.shared_poses = c.geometry.shared_poses;
+	c.geometry = SelectGeometry(c.task, options);
+	c.solution = SolveLeavingOut(c.solution.model, c.task, c.geometry);
+	c.pinhole = SolveGeometry(c.task, { 0, {}, options.shared_poses });
+	c.render = c.geometry.distortion_terms ? SolveLeavingOut(c.solution.model, c.task, c.pinhole) : c.solution;
+	RefineAndCheck(o, c);
+	ChooseEffects(o.effects, c);
+}
+
 Calibration Solve(const Task& measured, const CalibrateOptions& o)
 {
 	const Log& log = o.log;
@@ -301,11 +335,7 @@ Calibration Solve(const Task& measured, const CalibrateOptions& o)
 	if (model != Model::PAPER)
 	{
 		SolveExact(measured, model, o, c);
-		Refine(c.task, o, c);
-		AddBoardSize(c);
-		c.photographs = CheckPhotographs(c);
-		c.board_check = CheckBoard(c.task, c.geometry);
-		c.untilted_check = CheckUntilted(c);
+		RefineAndCheck(o, c);
 	}
 	else
 		c.geometry = c.pinhole = SolveGeometry(task, { 0, {}, PosesAreShared(task, {}, o) });
@@ -344,7 +374,9 @@ Calibration Solve(const Task& measured, const CalibrateOptions& o)
 	ChooseEffects(o.effects, c);
 	if (model != Model::PAPER)
 	{
-		FindRealLens(o, c);
+		const Task through_rims = c.task;
+		SolveThroughRims(measured, o, c);
+		FindRealLens(through_rims, o, c);
 		if (c.RealLensIsUsed())
 			ClearByRealLens(*c.real_lens, c.photographs);
 		c.light = CheckLight(c);

@@ -87,8 +87,8 @@ std::vector<Remark> JudgeBoard(const Calibration& c)
 		remarks.push_back({ left < DECIDES ? Grade::POOR : Grade::FAIR, fmt::format("the corners fit to {:.3f} px, and to {:.3f} px if the board is not as it was told: {}. The image distance would change by {:.3f} mm. "
 			"Measure the print in both directions, and glue it to glass", b.rms_flat, b.rms_free, shape, b.w_change) });
 	else if (PlacesAreLeftOver(c))
-		remarks.push_back({ Grade::GOOD, fmt::format("the corners fit to {:.3f} px, their noise is {:.3f} px: places are limited by what the camera model leaves out, and the sigmas hold that as far as parts of the edges put the lens apart",
-			c.geometry.rms, NoiseOfPlaces(c.task)) });
+		remarks.push_back({ Grade::GOOD, fmt::format("the corners fit to {:.3f} px, their noise is {:.3f} px: places are limited by what {}", c.geometry.rms, NoiseOfPlaces(c.task),
+			c.RealLensIsUsed() ? "a thin lens leaves out of them, and the real lens, whose numbers are told, is to have" : "the camera model leaves out, and the sigmas hold that as far as parts of the edges put the lens apart") });
 	return remarks;
 }
 

@@ -299,4 +299,10 @@ void CalibrateRun::Write(const Calibration& c, const std::vector<std::vector<con
 	WriteEverything(c, notes, [&](size_t s, size_t p) { return cv::imdecode(*packed[s][p], cv::IMREAD_GRAYSCALE); }, words.out);
 }
 
+void RefuseUnlessConverged(const Calibration& calibration)
+{
+	if (!calibration.refined)
+		throw Refused("the joint refinement did not converge: what is written are geometry and blur as solved one after the other");
+}
+
 }

@@ -81,6 +81,9 @@ public:
 	void Write(const Calibration& calibration, const std::vector<std::vector<const PackedPicture*>>& packed, const WatchNotes& watch) const;
 };
 
+/// Throws Refused where the joint refinement did not converge: a script that looks at nothing but the exit code is told too. To be called when all is written.
+void RefuseUnlessConverged(const Calibration& calibration);
+
 /// For the page.
 std::string TimeOfDay();
 

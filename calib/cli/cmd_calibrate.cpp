@@ -78,6 +78,7 @@ void Once(const CalibrateRun& run)
 	fmt::print("written to {}\n", run.words.out);
 	std::fflush(stdout);   // both may go to one file
 	spdlog::info("done in {:.1f} s", time.Seconds());
+	RefuseUnlessConverged(c);
 }
 
 void Run(const CalibrateWords& words, const std::string& command_line)

@@ -327,6 +327,7 @@ private:
 		Tell("ended");
 		run.Write(*last, packed, notes);
 		fmt::print("{}written to {}\n", SummaryTable(*last), run.words.out);
+		RefuseUnlessConverged(*last);
 	}
 
 	CalibrateRun run;

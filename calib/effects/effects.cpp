@@ -60,7 +60,7 @@ Effect CurvatureOf(const Calibration& c, const EffectChoice& choice)
 	Effect e;
 	e.unit = "px, blur of photographs left out";
 	e.held_out_without = c.compared ? c.compared->plane.held_out_px : 0;
-	e.held_out_with = c.compared ? c.compared->curved.held_out_px : c.solution.held_out_px;
+	e.held_out_with = c.compared ? c.compared->curved.held_out_px : c.solution.model == Model::CURVED ? c.solution.held_out_px : 0;
 	if (c.solution.model == Model::CURVED)
 		e.values.emplace_back("C per mm", c.solution.field_curvature);
 	else if (c.solution.model == Model::PAPER)

@@ -5,6 +5,7 @@
 #include "lens/angles.h"
 #include "lens/distortion.h"
 #include "model/projection.h"
+#include "model/rims_on_lens.h"
 
 #include <tiltcal/calibrate.h>
 
@@ -20,9 +21,6 @@ namespace
 {
 
 using tilt_lens::Pi;
-
-/// A rim whose image on the lens would be larger than so many times itself is cut or open as a whole: sums keep their digits.
-const double LEAST_SCALE = 1e-3;
 
 /// What an arc of disc d from the angle a to b adds to the area and to its first moments: integrals of x dy / 2 - y dx / 2,
 /// x^2 dy / 2 and -y^2 dx / 2.
@@ -94,16 +92,12 @@ Opening OpeningOf(const PixelView& seen, double radius_of_reference, double imag
 	const double lens_radius = radius_of_reference * seen.opening;
 	const tilt_lens::LensBasis<double> basis = tilt_lens::BasisOfLensPlane(seen.n);
 	std::vector<Disc> discs{ { 0, 0, lens_radius } };
-	for (const tilt_lens::Rim& rim : rims)
+	for (const RimOnLens& rim : RimsOnLens(seen.n, seen.v, seen.kappa, seen.pixel, image_distance, rims))
 	{
-		const tilt_lens::RimView<double> view = rim.distance < 0
-			? tilt_lens::ViewOfRimBehind(seen.n, Vec3<double>{ 0, 0, 1 }, seen.pixel, image_distance, 1.0, rim.distance)
-			: tilt_lens::ViewOfRim(seen.n, seen.v, seen.kappa, rim.distance);
-		const double scale = std::copysign(std::max(std::abs(view.scale), LEAST_SCALE), view.scale);
-		const double x = -Dot(view.offset, basis.a) / scale, y = -Dot(view.offset, basis.b) / scale, radius = rim.radius / std::abs(scale);
+		const double x = Dot(rim.centre, basis.a), y = Dot(rim.centre, basis.b);
 		// Most rims leave most pixels alone.
-		if (std::hypot(x, y) + lens_radius > radius)
-			discs.push_back({ x, y, radius });
+		if (std::hypot(x, y) + lens_radius > rim.radius)
+			discs.push_back({ x, y, rim.radius });
 	}
 	return CommonOpening(discs);
 }

@@ -22,7 +22,9 @@ const double HUBER = 3;
 
 /// Of the grid from which another rim starts: radii in radii of the lens, distances in focal lengths.
 const double RADII[] = { 1.02, 1.1, 1.25, 1.5, 2 }, DISTANCES[] = { 0.1, 0.25, 0.5, 0.8 };
-const size_t STARTS = 3;
+const size_t STARTS = 6;
+/// Of the cost, relatively: what a rim beside another changes at least where it cuts.
+const double CUTS_NOTHING = 1e-9;
 /// A rim much smaller than the lens would be its aperture, one much larger none.
 const double LEAST_RADIUS = 0.8, MOST_RADIUS = 20;
 /// Shares of a rim's distance from the lens to the sensor, or of 100 times that before the lens.
@@ -227,9 +229,12 @@ bool RimFit::Search(Rims& rims, int distance_sign, double focal_length)
 					Rims start = rims;
 					start[0].distance *= first;
 					start[0].radius = light_.lens_radius + first * (start[0].radius - light_.lens_radius);
+					const double alone = Evaluate(blocks, start).squaredNorm();
 					start.push_back({ radius * light_.lens_radius, distance_sign * distance * focal_length });
 					const double cost = Evaluate(blocks, start).squaredNorm();
-					starts.emplace_back(cost, start);
+					// One that cuts nothing has no slope to move by; as cheap as the first alone, such starts would crowd out the others.
+					if (std::abs(cost - alone) > CUTS_NOTHING * alone)
+						starts.emplace_back(cost, start);
 				}
 	const size_t count = std::min(STARTS, starts.size());
 	std::partial_sort(starts.begin(), starts.begin() + long(count), starts.end(), [](const auto& a, const auto& b) { return a.first < b.first; });

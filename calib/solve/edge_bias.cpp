@@ -4,10 +4,12 @@
 
 #include "edge/edge_fit.h"
 #include "edge/soft_radius.h"
+#include "lens/field_curvature.h"
 #include "measure/refine_corners.h"
 #include "model/footprint.h"
 #include "model/predict.h"
 #include "model/projection.h"
+#include "model/rims_on_lens.h"
 
 #include <Eigen/Core>
 #include <opencv2/core/utility.hpp>
@@ -15,6 +17,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 namespace tiltcal
 {
@@ -30,7 +33,8 @@ struct Camera
 	PictureOf<double> picture;
 	const double* distortion;
 	Vec3<double> q;
-	double curvature, half_difference, radius, floor_squared;
+	double curvature, half_difference, radius, floor_squared, image_distance;
+	const std::vector<tilt_lens::Rim>& rims;
 
 	Vec2 Pixel(const Vec3<double>& P) const
 	{
@@ -39,12 +43,13 @@ struct Camera
 		return { pixel[0], pixel[1] };
 	}
 
-	/// Ideal direction of a pixel, any length.
-	Vec3<double> Direction(const Vec2& p) const
+	Vec3<double> DirectionToPixel(const Vec2& p) const
 	{
-		const Vec3<double> v{ (p.x() - picture.principal_point[0]) / picture.w_px, -(p.y() - picture.principal_point[1]) / picture.w_px, 1 };
-		return tilt_lens::UndistortDirection(distortion, picture.basis.a, picture.basis.b, picture.n, v);
+		return { (p.x() - picture.principal_point[0]) / picture.w_px, -(p.y() - picture.principal_point[1]) / picture.w_px, 1 };
 	}
+
+	/// Ideal direction of a pixel, any length.
+	Vec3<double> Direction(const Vec2& p) const { return tilt_lens::UndistortDirection(distortion, picture.basis.a, picture.basis.b, picture.n, DirectionToPixel(p)); }
 
 	/// The plane that touches the bowl of focus's inverse distance at P's direction: exact along that ray.
 	Vec3<double> TouchingPlane(const Vec3<double>& P) const
@@ -63,6 +68,44 @@ struct Camera
 	}
 };
 
+/// Light of the lens at the distance `at` from its middle, in its radii: the share of the opening that is there, less the whole lens's.
+struct Slice
+{
+	double at, more;
+};
+
+/// Across the direction `across` in the lens's plane; none where the rims leave the lens alone, or nothing of it.
+std::vector<Slice> SlicesOf(const Vec3<double>& n, const Vec3<double>& across, double lens_radius, const std::vector<RimOnLens>& rims)
+{
+	const int count = 64;
+	const Vec3<double> along = Cross(n, across);
+	std::vector<Slice> slices;
+	std::vector<double> whole;
+	double sum = 0, sum_whole = 0;
+	// Chebyshev's points of the second kind, as which a disc's chords are evenly spaced in angle.
+	for (int k = 1; k <= count; ++k)
+	{
+		const double a = M_PI * k / (count + 1), at = std::cos(a), chord = std::sin(a);
+		double from = -chord, to = chord;
+		for (const RimOnLens& rim : rims)
+		{
+			const double off = at - Dot(rim.centre, across) / lens_radius, radius = rim.radius / lens_radius, half = std::sqrt(std::max(radius * radius - off * off, 0.0));
+			const double middle = Dot(rim.centre, along) / lens_radius;
+			from = std::max(from, middle - half);
+			to = std::min(to, middle + half);
+		}
+		slices.push_back({ at, chord * std::max(to - from, 0.0) });
+		whole.push_back(2 * chord * chord);
+		sum += slices.back().more;
+		sum_whole += whole.back();
+	}
+	if (!(sum > 0) || sum >= sum_whole)
+		return {};
+	for (size_t k = 0; k < slices.size(); ++k)
+		slices[k].more = slices[k].more / sum - whole[k] / sum_whole;
+	return slices;
+}
+
 /// An edge from A to B through that camera, exactly: pixel p sees of it what the lens sees through p's point of focus F. The plane
 /// through A, B and F cuts the lens's disc in a line; on one side of it are the lens points that see the bright side. The lens's own blur, and a demosaicing's, is
 /// no disc: it widens the pixel.
@@ -78,24 +121,39 @@ public:
 		box_a = std::sqrt(n.x() * n.x() + own);
 		box_b = std::sqrt(n.y() * n.y() + own);
 		sign = Dot(A, Cross(along, camera.Direction(middle + 2 * normal))) > Dot(A, Cross(along, camera.Direction(middle - 2 * normal))) ? 1 : -1;
+		if (camera.rims.empty())
+			return;
+		const Vec3<double> v = camera.Direction(middle), in_lens = InLens(v), &lens_normal = camera.picture.n;
+		const double kappa = tilt_lens::InverseFocusDistanceOnBowl(camera.q, camera.curvature, lens_normal, v);
+		slices = SlicesOf(lens_normal, (-sign / std::sqrt(Dot(in_lens, in_lens))) * in_lens, camera.radius,
+			RimsOnLens(lens_normal, v, kappa, camera.DirectionToPixel(middle), camera.image_distance, camera.rims));
 	}
 
-	/// The sample as a straight edge's that is as far away and as blurred as this one is there. Beyond the blur only the distance counts.
+	/// The sample as a straight edge's that is as far away and as blurred as this one is there. Beyond the blur only the distance counts. Its value alone is that through rims.
 	EdgeResponse At(const EdgeSample& sample, double, double, double) const override
 	{
 		const double step = std::min(0.5, 0.3 * radius), x = std::clamp(sample.x, -radius, radius);
 		const Vec2 p = middle + x * normal + sample.s * Vec2(normal.y(), -normal.x());
 		const double before = Height(p - step * normal), after = Height(p + step * normal);
-		const double slope = (after - before) / (2 * step);
-		return PixelEdgeResponse(0.5 * (before + after) / slope + sample.x - x, std::abs(1 / slope), box_a, box_b);
+		const double slope = (after - before) / (2 * step), at = 0.5 * (before + after) / slope + sample.x - x, blur = std::abs(1 / slope);
+		EdgeResponse response = PixelEdgeResponse(at, blur, box_a, box_b);
+		for (const Slice& slice : slices)
+			response.value += slice.more * PixelEdgeResponse(at + slice.at * blur, 0, box_a, box_b).value;
+		return response;
 	}
 
 private:
+	/// Of the plane in which pixels see the edge, the part along the lens: there the line cuts it. v: their direction.
+	Vec3<double> InLens(const Vec3<double>& v) const
+	{
+		const Vec3<double> plane = Cross(along, v - Dot(focus, v) * A);
+		return plane - Dot(plane, camera.picture.n) * camera.picture.n;
+	}
+
 	/// Distance of the lens centre from that line, in radii of the lens, positive on the bright side.
 	double Height(const Vec2& p) const
 	{
-		const Vec3<double> v = camera.Direction(p), plane = Cross(along, v - Dot(focus, v) * A);
-		const Vec3<double> in_lens = plane - Dot(plane, camera.picture.n) * camera.picture.n;
+		const Vec3<double> v = camera.Direction(p), in_lens = InLens(v);
 		return sign * Dot(A, Cross(along, v)) / (std::sqrt(Dot(in_lens, in_lens)) * camera.radius);
 	}
 
@@ -104,6 +162,7 @@ private:
 	Vec2 middle, normal;
 	double radius;
 	double box_a, box_b, sign = 1;
+	std::vector<Slice> slices;
 };
 
 /// A grid over the pixels that were used, of the middles of cells: finer across, where the light changes. The edges that cross at the ends lean by `lean`, px
@@ -211,7 +270,7 @@ void Correct(const Task& task, const Camera& camera, const Pose& pose, Photo& ph
 
 }
 
-Task WithoutEdgeBias(const Task& measured, const Geometry& g, const Solution& solution)
+Task WithoutEdgeBias(const Task& measured, const Geometry& g, const Solution& solution, const std::vector<tilt_lens::Rim>& rims)
 {
 	Task task = measured;
 	if (!task.board.IsCheckerboard())
@@ -221,7 +280,7 @@ Task WithoutEdgeBias(const Task& measured, const Geometry& g, const Solution& so
 		const StateGeometry& own = g.states[s];
 		const double C = solution.field_curvature.value;
 		Camera camera{ MakePicture(g.w_px, g.distortion.data(), own.principal_point.data(), own.lens_normal), g.distortion.data(), solution.states[s].q, C,
-			solution.tangential_curvature.value - C, 0, solution.psf_floor_squared.value };
+			solution.tangential_curvature.value - C, 0, solution.psf_floor_squared.value, g.w_px * task.pitch_mm, rims };
 		for (size_t p = 0; p < task.states[s].photos.size(); ++p)
 		{
 			camera.radius = 0.5 * solution.ApertureOf(task.states[s].photos[p]);

@@ -8,15 +8,20 @@
 #ifndef TILTCAL_EDGE_BIAS_H
 #define TILTCAL_EDGE_BIAS_H
 
+#include "lens/optical_vignetting.h"
+
 #include <tiltcal/calibration.h>
+
+#include <vector>
 
 namespace tiltcal
 {
 
 /// `measured` without what the measuring of straight edges leaves out, as the camera of `geometry` and `solution` shows it to first order: places, slopes and
 /// blurs of the edges, where on the board they were measured, and the corners. Circles' arcs are as they were. An edge whose
-/// correction comes out larger than a first order's can be (a quarter of a pixel and of its blur) is left as it is.
-Task WithoutEdgeBias(const Task& measured, const Geometry& geometry, const Solution& solution);
+/// correction comes out larger than a first order's can be (a quarter of a pixel and of its blur) is left as it is. With `rims`, which
+/// make discs to cat's eyes, as if the whole lens were open.
+Task WithoutEdgeBias(const Task& measured, const Geometry& geometry, const Solution& solution, const std::vector<tilt_lens::Rim>& rims = {});
 
 }
 

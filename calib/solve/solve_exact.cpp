@@ -97,6 +97,14 @@ void Keep(const HeldOut& held_out, Solution& solution)
 	solution.left_out = held_out.photos;
 }
 
+/// SolutionOf with what photographs left out say.
+Solution LeavingOut(LensModel model, Model name, const Task& task, const Geometry& geometry, const Fitted& f, double most)
+{
+	Solution solution = SolutionOf(model, name, task, geometry, f);
+	Keep(LeaveOut(model, task, geometry, f, most), solution);
+	return solution;
+}
+
 /// The bowl, or the two of an astigmatic lens where that predicts photographs better. `plane`: where to start.
 Solution Curve(const Task& task, const Geometry& geometry, const Fitted& plane, double most)
 {
@@ -133,6 +141,15 @@ Solution SolveCurved(const Task& task, const Geometry& geometry)
 	return Curve(task, geometry, plane, MostOf(plane));
 }
 
+Solution SolveLeavingOut(Model model, const Task& task, const Geometry& geometry)
+{
+	if (model == Model::CURVED)
+		return SolveCurved(task, geometry);
+	const LensModel lens_model = model == Model::RIGID ? LensModel::RIGID : LensModel::PLANE;
+	const Fitted f = FitFromNothing(lens_model, task, geometry);
+	return LeavingOut(lens_model, model, task, geometry, f, MostOf(f));
+}
+
 ModelComparison CompareExact(const Task& task, const Geometry& geometry)
 {
 	const Fitted plane = FitFromNothing(LensModel::PLANE, task, geometry);
@@ -157,16 +174,9 @@ ModelComparison CompareExact(const Task& task, const Geometry& geometry)
 		}
 	};
 	ModelComparison all;
-	all.rigid = or_failure(Model::RIGID, [&]
-	{
-		const Fitted rigid = FitFromNothing(LensModel::RIGID, task, geometry);
-		Solution s = SolutionOf(LensModel::RIGID, Model::RIGID, task, geometry, rigid);
-		Keep(LeaveOut(LensModel::RIGID, task, geometry, rigid, most), s);
-		return s;
-	});
+	all.rigid = or_failure(Model::RIGID, [&] { return LeavingOut(LensModel::RIGID, Model::RIGID, task, geometry, FitFromNothing(LensModel::RIGID, task, geometry), most); });
 	const Stopwatch time;
-	all.plane = SolutionOf(LensModel::PLANE, Model::PLANE, task, geometry, plane);
-	Keep(LeaveOut(LensModel::PLANE, task, geometry, plane, most), all.plane);
+	all.plane = LeavingOut(LensModel::PLANE, Model::PLANE, task, geometry, plane, most);
 	all.plane.seconds = time.Seconds();
 	all.curved = or_failure(Model::CURVED, [&] { return Curve(task, geometry, plane, most); });
 	return all;

@@ -36,6 +36,9 @@ Solution SolveRigid(const Task& task, const Geometry& geometry);
 /// or without untilted ones the two are told apart badly, and sigma says so.
 Solution SolveCurved(const Task& task, const Geometry& geometry);
 
+/// rigid, plane or curved with held_out_px and left_out filled.
+Solution SolveLeavingOut(Model model, const Task& task, const Geometry& geometry);
+
 /// rigid, plane and curved with their held_out_px. Refusals of rigid and curved are their `failure`;
 /// throws Refused where plane has no answer.
 ModelComparison CompareExact(const Task& task, const Geometry& geometry);

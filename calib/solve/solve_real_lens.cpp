@@ -222,7 +222,7 @@ void WidenHiddenStop(RealLens& lens)
 		state.image_distance_mm.sigma = std::hypot(state.image_distance_mm.sigma, state.image_distance_mm.value / m * PUPIL_MAGNIFICATION_SIGMA);
 }
 
-RealLenses FindRealLens(const Task& task, const Geometry& geometry, const Solution& thin, const std::vector<RimEstimate>& rims,
+RealLenses FindRealLens(const Task& task, const Task& through_rims, const Geometry& geometry, const Solution& thin, const std::vector<RimEstimate>& rims,
 	const std::function<bool(RealLens& tilts)>& judge)
 {
 	RealLenses found;
@@ -230,7 +230,7 @@ RealLenses FindRealLens(const Task& task, const Geometry& geometry, const Soluti
 	std::vector<tilt_lens::Rim> start;
 	for (const RimEstimate& rim : rims)
 		start.push_back({ rim.radius_mm.value, rim.distance_mm.value });
-	const std::optional<RealLensAnswer> six = SolveRealLens(task, geometry, thin, start);
+	const std::optional<RealLensAnswer> six = SolveRealLens(through_rims, geometry, thin, start);
 	if (!six)
 	{
 		found.tilts.failure = "the fit did not converge, or the photographs do not tell its numbers apart: photograph more inclined boards, sharp in one part and blurred in another, to the picture's corners";
@@ -242,7 +242,7 @@ RealLenses FindRealLens(const Task& task, const Geometry& geometry, const Soluti
 	if (!judge(found.tilts))
 		return found;
 	const Stopwatch more;
-	const std::optional<RealLensAnswer> fifth = SolveSceneLens(task, geometry, six->numbers);
+	const std::optional<RealLensAnswer> fifth = SolveSceneLens(through_rims, geometry, six->numbers);
 	if (fifth && (!geometry.shared_poses || fifth->about_shared_poses))
 	{
 		found.scene = Described(task, *fifth, rims);

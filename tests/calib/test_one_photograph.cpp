@@ -49,16 +49,20 @@ Task ThreeEach(unsigned seed, double focused)
 // grow by as much as the answer moves. Which one it is, three photographs need not tell. A real lens has still more numbers to take it up.
 TEST(OnePhotograph, OfTheUntiltedStateIsNamedWhereTheAnswerHangsOnIt)
 {
-	const CalibrateOptions curved{ Model::CURVED, Poses::AUTO };
-	for (unsigned seed = 1; seed <= 3; ++seed)
-	{
-		const Calibration good = Calibrate(ThreeEach(seed, 0), curved);
-		ASSERT_EQ(good.solution.left_out.size(), 6u);
-		EXPECT_THAT(good.verdict.remarks, Not(Says(": without ")));
-		const Calibration c = Calibrate(ThreeEach(seed, 0.01), curved);
-		EXPECT_THAT(c.verdict.remarks, Says("state untilted: without untilted-"));
-		EXPECT_GT(c.verdict.grade, Grade::GOOD);
-	}
+	for (const Model model : { Model::CURVED, Model::PLANE, Model::RIGID })
+		for (unsigned seed = 1; seed <= 3; ++seed)
+		{
+			SCOPED_TRACE(NameOf(model));
+			const CalibrateOptions asked{ model, Poses::AUTO };
+			const Calibration good = Calibrate(ThreeEach(seed, 0), asked);
+			ASSERT_EQ(good.solution.left_out.size(), 6u);
+			EXPECT_THAT(good.verdict.remarks, Not(Says(": without ")));
+			const Calibration c = Calibrate(ThreeEach(seed, 0.01), asked);
+			// Where f ties all states together, one of six moves the answer too little to be seen.
+			if (model != Model::RIGID)
+				EXPECT_THAT(c.verdict.remarks, Says("state untilted: without untilted-"));
+			EXPECT_GT(c.verdict.grade, Grade::GOOD);
+		}
 }
 
 TEST(OnePhotograph, AloneInTheUntiltedStateIsSaid)
