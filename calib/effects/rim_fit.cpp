@@ -22,7 +22,7 @@ const double HUBER = 3;
 
 /// Of the grid from which another rim starts: radii in radii of the lens, distances in focal lengths.
 const double RADII[] = { 1.02, 1.1, 1.25, 1.5, 2 }, DISTANCES[] = { 0.1, 0.25, 0.5, 0.8 };
-const size_t STARTS = 6;
+const size_t STARTS = 4;
 /// Of the cost, relatively: what a rim beside another changes at least where it cuts.
 const double CUTS_NOTHING = 1e-9;
 /// A rim much smaller than the lens would be its aperture, one much larger none.

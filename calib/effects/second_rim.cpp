@@ -3,6 +3,7 @@
 #include "effects/second_rim.h"
 
 #include "base/robust.h"
+#include "solve/solve_lens.h"
 
 #include <fmt/format.h>
 
@@ -83,7 +84,7 @@ std::string Against(const SecondRim& v)
 		return fmt::format("{:.1f} sigma: not significant", std::max(0.0, v.sigmas));
 	if (!(v.held_out_with > 0))
 		return "nothing can be left out to be predicted";
-	return v.held_out_with < v.held_out_without ? "" : "what was left out is not predicted better with it";
+	return v.held_out_with < WORTH_IT * v.held_out_without ? "" : "what was left out is not predicted better with it";
 }
 
 }

@@ -52,19 +52,36 @@ struct Camera
 	Vec3<double> Direction(const Vec2& p) const { return tilt_lens::UndistortDirection(distortion, picture.basis.a, picture.basis.b, picture.n, DirectionToPixel(p)); }
 
 	/// The plane that touches the bowl of focus's inverse distance at P's direction: exact along that ray.
-	Vec3<double> TouchingPlane(const Vec3<double>& P) const
+	Vec3<double> TouchingPlane(const Vec3<double>& P, double bowl) const
 	{
 		const double depth = Dot(P, picture.n);
 		const Vec3<double> aside = (1 / depth) * (P - depth * picture.n);
-		return q + curvature * (2. * aside - Dot(aside, aside) * picture.n);
+		return q + bowl * (2. * aside - Dot(aside, aside) * picture.n);
+	}
+
+	/// How far the lens moves an edge at P with that picture direction across itself, px/mm (footprint.h).
+	Vec3<double> Move(const Vec3<double>& P, const Vec2& normal) const
+	{
+		const double bowls[2] = { curvature, half_difference };
+		return MoveByLensPoint(q, picture.n, bowls, P, picture.Gradient(P, normal.x(), normal.y()));
+	}
+
+	/// The one bowl that blurs an edge there as an astigmatic lens's two do.
+	double BowlFor(const Vec3<double>& P, const Vec2& normal) const
+	{
+		const double term = tilt_lens::CurvatureTerm(picture.n, P);
+		if (half_difference == 0 || !(std::abs(half_difference * term) > 1e-12))
+			return curvature;
+		const Vec3<double> G = picture.Gradient(P, normal.x(), normal.y()), across = G - Dot(G, picture.n) * picture.n, move = Move(P, normal);
+		const double sigma = std::copysign(std::sqrt(Dot(move, move) / Dot(across, across)), Dot(move, across));
+		return (1 - Dot(q, P) - sigma) / term;
 	}
 
 	/// Diameter of the blur across the picture direction `normal` of an edge at P, squared; px^2, the lens's own blur included.
 	double SquaredBlur(const Vec3<double>& P, const Vec2& normal) const
 	{
-		const double bowls[2] = { curvature, half_difference };
-		const Vec3<double> G = picture.Gradient(P, normal.x(), normal.y());
-		return SquaredFootprintWidth(2 * radius, q, picture.n, bowls, P, G) + floor_squared;
+		const Vec3<double> move = Move(P, normal);
+		return 4 * radius * radius * Dot(move, move) + floor_squared;
 	}
 };
 
@@ -114,7 +131,7 @@ class EdgeThroughLens : public EdgeProfile
 public:
 	/// `middle` and `normal` (to the bright side): of the line in the picture from which samples count; `radius`: of the blur, about; px.
 	EdgeThroughLens(const Camera& c, const Vec3<double>& a, const Vec3<double>& b, const Vec3<double>& at, const Vec2& mid, const Vec2& n, double r)
-		: camera(c), A(a), along(b - a), focus(c.TouchingPlane(at)), middle(mid), normal(n), radius(std::max(r, 0.02))
+		: camera(c), A(a), along(b - a), focus(c.TouchingPlane(at, c.BowlFor(at, n))), middle(mid), normal(n), radius(std::max(r, 0.02))
 	{
 		// A disc of the diameter F has the variance F^2/16 across, a box of the width a a^2/12: half of the former is put on each of the pixel's two.
 		const double own = 6 * std::max(c.floor_squared, 0.0) / 16;
@@ -123,9 +140,9 @@ public:
 		sign = Dot(A, Cross(along, camera.Direction(middle + 2 * normal))) > Dot(A, Cross(along, camera.Direction(middle - 2 * normal))) ? 1 : -1;
 		if (camera.rims.empty())
 			return;
-		const Vec3<double> v = camera.Direction(middle), in_lens = InLens(v), &lens_normal = camera.picture.n;
-		const double kappa = tilt_lens::InverseFocusDistanceOnBowl(camera.q, camera.curvature, lens_normal, v);
-		slices = SlicesOf(lens_normal, (-sign / std::sqrt(Dot(in_lens, in_lens))) * in_lens, camera.radius,
+		const Vec3<double> v = camera.Direction(middle), &lens_normal = camera.picture.n, move = camera.Move(at, normal);
+		const double kappa = tilt_lens::InverseFocusDistanceOnBowl(camera.q, camera.curvature, lens_normal, v), bright = sign * Dot(move, InLens(v)) > 0 ? -1 : 1;
+		slices = SlicesOf(lens_normal, (bright / std::sqrt(Dot(move, move))) * move, camera.radius,
 			RimsOnLens(lens_normal, v, kappa, camera.DirectionToPixel(middle), camera.image_distance, camera.rims));
 	}
 

@@ -172,8 +172,8 @@ bool IsUsed(const Json& calibration, const char* lens)
 Json ClosedLoopTable(const Run& run)
 {
 	const Json start = ReadJson(Calibration(run, "demo/calibration")), found = ReadJson(Calibration(run, "closed/calibration"));
-	// The camera that photographed is the real lens for scenes, where there is one; its tilts are its own.
-	const bool real = IsUsed(start, "scene_lens") && IsUsed(found, "real_lens");
+	// The camera that photographed is the real lens for scenes, where there is one, else the thin lens; its tilts are its own.
+	const bool scene = IsUsed(start, "scene_lens");
 	Json table;
 	table["model"] = found.at("model");
 	const auto add = [&](const std::string& name, const std::string& what, const std::string& unit, const Json& a, const Json& b, const std::string& key)
@@ -183,11 +183,14 @@ Json ClosedLoopTable(const Run& run)
 	};
 	for (const char* const state : { "plus5", "minus5" })
 	{
-		const Json& camera = StateOf(real ? start.at("scene_lens") : start, state);
+		const Json &own = StateOf(scene ? start.at("scene_lens") : start, state), &camera = own.contains("thin") ? own.at("thin") : own;
 		add(std::string("tilt_") + state, std::string("lens tilt, ") + state, "_deg", camera, StateOf(found, state), "lens_tilt");
 		add(std::string("direction_") + state, std::string("its direction, ") + state, "_deg", camera, StateOf(found, state), "tilt_direction");
 	}
-	if (real)
+	// Numbers of one kind of lens say little of the other's.
+	if (scene != IsUsed(found, "real_lens"))
+		return table;
+	if (scene)
 	{
 		const Json &camera = start.at("scene_lens"), &lens = found.at(IsUsed(found, "scene_lens") ? "scene_lens" : "real_lens");
 		add("f", "focal length f", "_mm", camera, lens, "focal_length");

@@ -27,6 +27,8 @@ namespace
 {
 
 const Shade RIM{ true, 15, 33, 0 };
+/// Boards that a lamp lights from one side, through the same rim: their places are the lens's, their brightness would say something else.
+const Shade LIT_OTHERWISE{ false, 15, 33, 0.2 };
 const Shade ON_BOTH_SIDES{ true, 12.5, 21, 0, 8.8, 13 };
 
 std::vector<Lens> TiltedBothWays()
@@ -237,7 +239,7 @@ TEST(CalibrateVignetting, NaturalFallOffAloneHasNoRim)
 // One picture of 1040 cells, without a photograph that could be left out: it is left out by quarters.
 TEST(CalibrateVignetting, FlatFieldsTellItBetterThanTheBoard)
 {
-	Calibration c = synthetic::Shaded(TiltedBothWays(), Shade{ false, 0, 0, 0.2 }, 0.005, 5);   // the board would say something else
+	Calibration c = synthetic::Shaded(TiltedBothWays(), LIT_OTHERWISE, 0.005, 5);
 	for (const bool several : { false, true })
 	{
 		c.task.flat_fields.clear();
@@ -257,7 +259,7 @@ TEST(CalibrateVignetting, FlatFieldsTellItBetterThanTheBoard)
 // A lens whose image circle ends within the picture: black cells say nothing, and must not end the fit.
 TEST(CalibrateVignetting, BlackCellsOfAFlatFieldAreLeftOut)
 {
-	Calibration c = synthetic::Shaded(TiltedBothWays(), Shade{ false, 0, 0, 0.2 }, 0.005, 5);
+	Calibration c = synthetic::Shaded(TiltedBothWays(), LIT_OTHERWISE, 0.005, 5);
 	c.task.flat_fields = { synthetic::ShadedField(TiltedBothWays()[0], 0, RIM, 0.005, 1) };
 	for (size_t k = 0; k < 20; ++k)
 		c.task.flat_fields[0].patches[k].value = k < 10 ? 0 : -1e-6;
