@@ -153,6 +153,26 @@ void RefineAndCheck(const CalibrateOptions& o, Calibration& c)
 	c.untilted_check = CheckUntilted(c);
 }
 
+std::vector<tilt_lens::Rim> RimsOf(const Calibration& c)
+{
+	std::vector<tilt_lens::Rim> rims;
+	for (const RimEstimate& rim : WrittenRims(c))
+		rims.push_back({ rim.radius_mm.value, rim.distance_mm.value });
+	return rims;
+}
+
+/// Geometry and lens of these edges, the poses shared and the model chosen as before.
+void SolveAgain(Task task, const CalibrateOptions& o, Calibration& c)
+{
+	c.task = std::move(task);
+	GeometryOptions options;
+	options.may_distort = !o.effects.Excludes(EffectId::DISTORTION);
+	options.lens_normal = LensNormals(c.solution);
+	options.shared_poses = c.geometry.shared_poses;
+	c.geometry = SelectGeometry(c.task, options);
+	c.solution = SolveLeavingOut(c.solution.model, c.task, c.geometry);
+}
+
 }
 
 bool PosesAreShared(const Task& task, const std::vector<Vec3<double>>& normals, const CalibrateOptions& o)
@@ -183,42 +203,26 @@ void SolveThinLens(const Task& measured, const std::optional<Model>& model, cons
 
 Task SolveThroughRims(const Task& measured, const CalibrateOptions& o, Calibration& c)
 {
+	if (WrittenRims(c).empty() || !c.refined)
+		return c.task;
+	o.log.Info("solving geometry and lens once more, with the rims that vignette");
 	const Calibration without = c;
-	Task seen = c.task;
-	for (const bool again : { false, true })
+	SolveAgain(WithoutEdgeBias(measured, c.geometry, c.solution, RimsOf(c)), o, c);
+	// Brightness alone told the first rim: what else darkens corners does not cut blurs.
+	if (!(c.solution.held_out_px > 0 && c.solution.held_out_px < WORTH_IT * without.solution.held_out_px))
 	{
-		std::vector<tilt_lens::Rim> rims;
-		for (const RimEstimate& rim : WrittenRims(c))
-			rims.push_back({ rim.radius_mm.value, rim.distance_mm.value });
-		if (!again && (rims.empty() || !c.refined))
-			break;
-		o.log.Info("solving geometry and lens once more, with the rims that vignette");
-		c.task = WithoutEdgeBias(measured, c.geometry, c.solution, rims);
-		GeometryOptions options;
-		options.may_distort = !o.effects.Excludes(EffectId::DISTORTION);
-		options.lens_normal = LensNormals(c.solution);
-		options.shared_poses = c.geometry.shared_poses;
-		c.geometry = SelectGeometry(c.task, options);
-		c.solution = SolveLeavingOut(c.solution.model, c.task, c.geometry);
-		// Brightness alone told the first rim: what else darkens corners does not cut blurs.
-		if (!(c.solution.held_out_px > 0 && c.solution.held_out_px < WORTH_IT * without.solution.held_out_px))
-		{
-			o.log.Info("the edges do not show these rims: blur of photographs left out is not predicted better with them");
-			c = without;
-			return c.task;
-		}
-		SolvePinhole(SolverOf(c.solution.model), c);
-		RefineAndCheck(o, c);
-		seen = WithoutEdgeBias(measured, c.geometry, c.solution);
-		if (!again)
-		{
-			std::swap(seen, c.task);
-			c.vignetting = EstimateVignetting(c);
-			std::swap(seen, c.task);
-		}
-		ChooseEffects(o.effects, c);
+		o.log.Info("the edges do not show these rims: blur of photographs left out is not predicted better with them");
+		c = without;
+		return c.task;
 	}
-	return seen;
+	c.task = WithoutEdgeBias(measured, c.geometry, c.solution);
+	c.vignetting = EstimateVignetting(c);
+	ChooseEffects(o.effects, c);
+	SolveAgain(WithoutEdgeBias(measured, c.geometry, c.solution, RimsOf(c)), o, c);
+	SolvePinhole(SolverOf(c.solution.model), c);
+	RefineAndCheck(o, c);
+	ChooseEffects(o.effects, c);
+	return WithoutEdgeBias(measured, c.geometry, c.solution);
 }
 
 }
