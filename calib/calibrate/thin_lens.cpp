@@ -9,6 +9,7 @@
 #include "effects/effects.h"
 #include "effects/vignetting.h"
 #include "lens/optics.h"
+#include "model/rims_on_lens.h"
 #include "solve/edge_bias.h"
 #include "solve/solve_geometry.h"
 #include "solve/solve_joint.h"
@@ -18,6 +19,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -161,6 +163,14 @@ std::vector<tilt_lens::Rim> RimsOf(const Calibration& c)
 	return rims;
 }
 
+/// Whether a rim is narrower for the light from the point in focus on the axis than the lens: then it is the stop, and says of d what blur says.
+bool HoldBackTheAxis(const std::vector<tilt_lens::Rim>& rims, const Calibration& c)
+{
+	const Vec3<double> axis{ 0, 0, 1 };
+	const std::vector<RimOnLens> seen = RimsOnLens(axis, axis, 1 / c.solution.states[0].focus_distance.value, axis, c.solution.w_mm.value, rims);
+	return std::any_of(seen.begin(), seen.end(), [&](const RimOnLens& rim) { return 2 * rim.radius < c.solution.aperture_diameter.value; });
+}
+
 /// Geometry and lens of these edges, the poses shared and the model chosen as before.
 void SolveAgain(Task task, const CalibrateOptions& o, Calibration& c)
 {
@@ -203,7 +213,7 @@ void SolveThinLens(const Task& measured, const std::optional<Model>& model, cons
 
 Task SolveThroughRims(const Task& measured, const CalibrateOptions& o, Calibration& c)
 {
-	if (WrittenRims(c).empty() || !c.refined)
+	if (WrittenRims(c).empty() || !c.refined || HoldBackTheAxis(RimsOf(c), c))
 		return c.task;
 	o.log.Info("solving geometry and lens once more, with the rims that vignette");
 	const Calibration without = c;

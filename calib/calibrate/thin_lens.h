@@ -22,7 +22,8 @@ bool PosesAreShared(const Task& task, const std::vector<Vec3<double>>& normals, 
 void SolveThinLens(const Task& measured, const std::optional<Model>& model, const CalibrateOptions& options, Calibration& c);
 
 /// The same once more from what the edges would be without the rims that were found, which cut blurs and move edges, and those rims once more by that lens. Returns the
-/// task with the edges as they are: a real lens sees them through what rims leave. Nothing is changed where the blur of photographs left out is not predicted better so.
+/// task with the edges as they are: a real lens sees them through what rims leave. Nothing is changed where the blur of photographs left out is not predicted better so,
+/// or a rim holds back the axis's own light.
 Task SolveThroughRims(const Task& measured, const CalibrateOptions& options, Calibration& c);
 
 }
