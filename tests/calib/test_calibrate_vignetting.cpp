@@ -104,6 +104,17 @@ TEST(CalibrateVignetting, FindsRimsOnBothSides)
 	}
 }
 
+// With little noise one rim beside the others' places is dear at first, and a second one that cuts nothing is not: the search must not begin with such. 3 sigma, of one set.
+TEST(CalibrateVignetting, FindsBothRimsWhereNoiseIsLittle)
+{
+	const Calibration c = Estimated(synthetic::Shaded(TiltedBothWays(), ON_BOTH_SIDES, 0.0005, 1));
+	const FalloffAnswer& found = FalloffOf(c);
+	ASSERT_EQ(found.rims.size(), 2u) << EffectsText(c);
+	EXPECT_GT(found.rims[0].distance_mm.value, 0);
+	EXPECT_LT(found.rims[1].distance_mm.value, 0);
+	EXPECT_LT(Off(found.rims[1].radius_mm, 8.8), 3) << found.rims[1].radius_mm.value << " +- " << found.rims[1].radius_mm.sigma;
+}
+
 // The same number of rims as there are: no second one is made up for noise. Of ten sets chance may show one at 2 sigma, and it must then predict better too.
 TEST(CalibrateVignetting, OneRimStaysOne)
 {
