@@ -26,7 +26,6 @@
 #include "effects/vignetting.h"
 
 #include <fmt/format.h>
-#include "lens/optics.h"
 
 #include <algorithm>
 

@@ -155,14 +155,6 @@ void RefineAndCheck(const CalibrateOptions& o, Calibration& c)
 	c.untilted_check = CheckUntilted(c);
 }
 
-std::vector<tilt_lens::Rim> RimsOf(const Calibration& c)
-{
-	std::vector<tilt_lens::Rim> rims;
-	for (const RimEstimate& rim : WrittenRims(c))
-		rims.push_back({ rim.radius_mm.value, rim.distance_mm.value });
-	return rims;
-}
-
 /// Whether a rim is narrower for the light from the point in focus on the axis than the lens: then it is the stop, and says of d what blur says.
 bool HoldBackTheAxis(const std::vector<tilt_lens::Rim>& rims, const Calibration& c)
 {
@@ -213,11 +205,11 @@ void SolveThinLens(const Task& measured, const std::optional<Model>& model, cons
 
 Task SolveThroughRims(const Task& measured, const CalibrateOptions& o, Calibration& c)
 {
-	if (WrittenRims(c).empty() || !c.refined || HoldBackTheAxis(RimsOf(c), c))
+	if (WrittenRims(c).empty() || !c.refined || HoldBackTheAxis(RimsOf(WrittenRims(c)), c))
 		return c.task;
 	o.log.Info("solving geometry and lens once more, with the rims that vignette");
 	const Calibration without = c;
-	SolveAgain(WithoutEdgeBias(measured, c.geometry, c.solution, RimsOf(c)), o, c);
+	SolveAgain(WithoutEdgeBias(measured, c.geometry, c.solution, RimsOf(WrittenRims(c))), o, c);
 	// Brightness alone told the first rim: what else darkens corners does not cut blurs.
 	if (!(c.solution.held_out_px > 0 && c.solution.held_out_px < WORTH_IT * without.solution.held_out_px))
 	{
@@ -228,7 +220,7 @@ Task SolveThroughRims(const Task& measured, const CalibrateOptions& o, Calibrati
 	c.task = WithoutEdgeBias(measured, c.geometry, c.solution);
 	c.vignetting = EstimateVignetting(c);
 	ChooseEffects(o.effects, c);
-	SolveAgain(WithoutEdgeBias(measured, c.geometry, c.solution, RimsOf(c)), o, c);
+	SolveAgain(WithoutEdgeBias(measured, c.geometry, c.solution, RimsOf(WrittenRims(c))), o, c);
 	SolvePinhole(SolverOf(c.solution.model), c);
 	RefineAndCheck(o, c);
 	ChooseEffects(o.effects, c);

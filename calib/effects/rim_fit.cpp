@@ -221,21 +221,24 @@ bool RimFit::Search(Rims& rims, int distance_sign, double focal_length)
 	if (distance_sign == 0)
 		starts.emplace_back(0, rims);
 	else
-		for (const double radius : RADII)
-			for (const double distance : DISTANCES)
-				// The first rim must give way where the second cuts: begin with a share of each.
-				for (const double first : { 1.0, 0.6 })
+		// The first rim must give way where the second cuts: begin with a share of each.
+		for (const double first : { 1.0, 0.6 })
+		{
+			Rims given_way = rims;
+			given_way[0].distance *= first;
+			given_way[0].radius = light_.lens_radius + first * (given_way[0].radius - light_.lens_radius);
+			const double alone = Evaluate(blocks, given_way).squaredNorm();
+			for (const double radius : RADII)
+				for (const double distance : DISTANCES)
 				{
-					Rims start = rims;
-					start[0].distance *= first;
-					start[0].radius = light_.lens_radius + first * (start[0].radius - light_.lens_radius);
-					const double alone = Evaluate(blocks, start).squaredNorm();
+					Rims start = given_way;
 					start.push_back({ radius * light_.lens_radius, distance_sign * distance * focal_length });
 					const double cost = Evaluate(blocks, start).squaredNorm();
 					// One that cuts nothing has no slope to move by; as cheap as the first alone, such starts would crowd out the others.
 					if (std::abs(cost - alone) > CUTS_NOTHING * alone)
 						starts.emplace_back(cost, start);
 				}
+		}
 	const size_t count = std::min(STARTS, starts.size());
 	std::partial_sort(starts.begin(), starts.begin() + long(count), starts.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
 	std::optional<double> best;

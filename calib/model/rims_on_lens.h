@@ -7,12 +7,23 @@
 
 #include "lens/optical_vignetting.h"
 
+#include <tiltcal/calibration.h>
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 namespace tiltcal
 {
+
+/// Without their sigmas.
+inline std::vector<tilt_lens::Rim> RimsOf(const std::vector<RimEstimate>& estimates)
+{
+	std::vector<tilt_lens::Rim> rims;
+	for (const RimEstimate& rim : estimates)
+		rims.push_back({ rim.radius_mm.value, rim.distance_mm.value });
+	return rims;
+}
 
 /// A rim as the lens's plane has it: its centre from the lens's, normal to the lens's axis, and its radius; mm.
 struct RimOnLens

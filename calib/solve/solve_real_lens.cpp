@@ -4,6 +4,7 @@
 
 #include "base/stopwatch.h"
 #include "lens/optical_vignetting.h"
+#include "model/rims_on_lens.h"
 #include "model/thin_lens_of_real.h"
 #include "model/tilt_angles.h"
 #include "solve/fill_solution.h"
@@ -227,10 +228,7 @@ RealLenses FindRealLens(const Task& task, const Task& through_rims, const Geomet
 {
 	RealLenses found;
 	const Stopwatch time;
-	std::vector<tilt_lens::Rim> start;
-	for (const RimEstimate& rim : rims)
-		start.push_back({ rim.radius_mm.value, rim.distance_mm.value });
-	const std::optional<RealLensAnswer> six = SolveRealLens(through_rims, geometry, thin, start);
+	const std::optional<RealLensAnswer> six = SolveRealLens(through_rims, geometry, thin, RimsOf(rims));
 	if (!six)
 	{
 		found.tilts.failure = "the fit did not converge, or the photographs do not tell its numbers apart: photograph more inclined boards, sharp in one part and blurred in another, to the picture's corners";

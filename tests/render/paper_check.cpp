@@ -68,7 +68,7 @@ void CheckTables(const Json& results)
 	for (const char* const state : STATES)
 		for (const char* const line : { "red", "green" })
 		{
-			// The project's limit for the gain is 5 with 16 samples and every edge (boxes.cmake); 60 edges add 1 to 2.
+			// The project's limit for the gain is 5 with 16 samples and every edge (boxes.cmake); 32 samples' grain and 60 edges add 1 to 2.
 			const double error = results.at("brightness").at(state).at("gain").at(line);
 			Check(error > 0 && error < 8, "Table 2, " + std::string(state) + ", " + line + ": " + Said(error));
 			// tiltcal profile and the ablation measure the same differences, each with its own code; the gain's last digits differ.
@@ -101,15 +101,14 @@ void CheckAblation(const Json& results)
 		}
 		const Json &squares = all.at("picture").at("squares"), &measured = all.at("picture").at("measured");
 		const double whole = squares.at("whole");
-		// Noise and grain are independent of all else, so that with them the whole cannot be less than they are; but JPEG takes some of the grain off, and what is predicted from
-		// such squares is allowed to be 10 % too large below: 21 % of the squares.
-		const double sampling = squares.at("sampling"), calibration = squares.at("calibration"), grain = double(squares.at("noise")) + sampling;
-		Check(whole - grain > -0.21 * grain, std::string(state) + ": beyond noise and grain " + Said(whole - grain));
-		// The two seeds of the closed loop's grain are draws of two million pixels: beyond them little is left to chance, a tenth of the whole at most.
-		Check(calibration > -0.1 * whole, std::string(state) + ", calibration: " + Said(calibration) + " of " + Said(whole));
-		// The model's parts are the photograph's less the closed loop's, whose draw of the camera may be the worse one: below zero then by what that one has of the part, which is not
-		// more than all that it has.
-		Check(double(squares.at("rest")) > -1.21 * (sampling + std::max(calibration, 0.0)), std::string(state) + ", rest: " + Said(squares.at("rest")) + " of " + Said(whole));
+		// A photograph through a real lens differs from the render by more than noise and grain: by several levels here.
+		const double beyond = whole - double(squares.at("noise")) - double(squares.at("sampling"));
+		Check(beyond > 1, std::string(state) + ": beyond noise and grain " + Said(beyond));
+		// Nine photographs and 60 edges leave the principal point free by 0.7 px, and the closed loop's draw of it may be larger than the
+		// photographs': the share of the model, and of it that of the displacement, may then be below zero. What is left once both are
+		// displaced may not, beyond chance: a tenth of the whole, half of which is grain with 8 samples (measured: 4 % below).
+		for (const char* const part : { "calibration", "rest" })
+			Check(double(squares.at(part)) > -0.1 * whole, std::string(state) + ", " + part + ": " + Said(squares.at(part)) + " of " + Said(whole));
 		// Squares add: predicted from noise and calibration, and measured. They differ by the mean of the product, which falls with the root of
 		// two million pixels; but JPEG takes some of the render's grain off, which counts as noise and is not there in the sum: 8 % too much
 		// is predicted with 64 samples and every edge, 4 % with 16, nothing where few edges make calibration the larger part.
