@@ -41,9 +41,9 @@ void Run(const Options& o)
 		PrepareFolderOf(o.json);
 	const Comparison c = Compare(a, b, lines, match);
 	FileSet set;
-	WriteComparison(c, a, o.out, set);
+	WriteComparison(c, a, { o.a, o.b }, o.out, set);
 	if (!o.json.empty())
-		set.Text(o.json, ComparisonJson(c, o.a, o.b));
+		set.Text(o.json, ComparisonJson(c, { o.a, o.b }));
 	set.Commit();
 	fmt::print("{}", ComparisonText(c));
 }

@@ -134,11 +134,11 @@ std::string ComparisonText(const Comparison& c)
 	return out + fmt::format("whole picture: mean absolute error {:.3f} of 255, RMS {:.3f}\n", c.mean_abs_error, c.rms_error);
 }
 
-std::string ComparisonJson(const Comparison& c, const std::string& file_a, const std::string& file_b)
+std::string ComparisonJson(const Comparison& c, const ComparedFiles& files)
 {
 	nlohmann::ordered_json json;
-	json["a"] = file_a;
-	json["b"] = file_b;
+	json["a"] = files.a;
+	json["b"] = files.b;
 	json["match"] = MatchName(c.match);
 	json["shading"] = { { "order", c.shading.order }, { "coefficients", c.shading.coefficients } };
 	json["lines"] = nlohmann::ordered_json::array();

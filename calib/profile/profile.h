@@ -63,12 +63,18 @@ Comparison Compare(const cv::Mat& a, const cv::Mat& b, const std::vector<Line>& 
 /// The result in words, as printed.
 std::string ComparisonText(const Comparison& comparison);
 
+/// The names under which the pictures were given.
+struct ComparedFiles
+{
+	std::string a, b;
+};
+
 /// The result for programs: match, shading {order, coefficients}, lines, mean_abs_error.
-std::string ComparisonJson(const Comparison& comparison, const std::string& file_a, const std::string& file_b);
+std::string ComparisonJson(const Comparison& comparison, const ComparedFiles& files);
 
 /// profile-N.csv (position,x,y,a,b) and profile.png (gnuplot) and side-by-side.png into
 /// `folder`, as parts of `set`. `a` is the first picture, linear. Throws FileError.
-void WriteComparison(const Comparison& comparison, const cv::Mat& a, const std::string& folder, FileSet& set);
+void WriteComparison(const Comparison& comparison, const cv::Mat& a, const ComparedFiles& files, const std::string& folder, FileSet& set);
 
 }
 

@@ -37,8 +37,10 @@ std::string Csv(const LineProfile& p)
 }
 
 /// `data`: the files of the lines.
-void PlotProfiles(const Comparison& c, const std::vector<std::string>& data, const std::string& folder, FileSet& set)
+void PlotProfiles(const Comparison& c, const ComparedFiles& files, const std::vector<std::string>& data, const std::string& folder, FileSet& set)
 {
+	const std::string title_a = GnuplotString("A: " + std::filesystem::path(files.a).filename().string());
+	const std::string title_b = GnuplotString("B: " + std::filesystem::path(files.b).filename().string() + (c.match == Match::NONE ? "" : ", matched"));
 	std::string script = fmt::format("set datafile separator ','\nset multiplot layout {},1\nset yrange [0:260]\nset ylabel 'brightness'\n"
 		"set grid lc rgb '#dddddd'\nset key bottom right horizontal\nset lmargin 8\n", c.lines.size());
 	for (size_t k = 0; k < c.lines.size(); ++k)
@@ -46,9 +48,9 @@ void PlotProfiles(const Comparison& c, const std::vector<std::string>& data, con
 		const auto& colour = COLOURS[k % COLOUR_COUNT];
 		const std::string file = GnuplotString(data[k]);
 		script += fmt::format("set title {}\nset xlabel 'position on the line [px]'\n"
-			"plot {} every ::1 using 1:4 with lines lw 2 lc rgb '#{:02x}{:02x}{:02x}' title 'A', {} every ::1 using 1:5 with lines lw 1.2 lc rgb '#202020' title 'B, matched'\n",
+			"plot {} every ::1 using 1:4 with lines lw 2 lc rgb '#{:02x}{:02x}{:02x}' title {}, {} every ::1 using 1:5 with lines lw 1.2 lc rgb '#202020' title {}\n",
 			GnuplotString(fmt::format("{} line {}: mean absolute error {:.2f}", colour.name, c.lines[k].line.text, c.lines[k].mean_abs_error)),
-			file, colour.r, colour.g, colour.b, file);
+			file, colour.r, colour.g, colour.b, title_a, file, title_b);
 	}
 	script += "unset multiplot\n";
 	Plot(set, Join(folder, "profile.png"), script, 1100, 80 + 330 * static_cast<int>(c.lines.size()));
@@ -75,7 +77,7 @@ cv::Mat WithLines(const cv::Mat& linear, const Comparison& c)
 
 }
 
-void WriteComparison(const Comparison& c, const cv::Mat& a, const std::string& folder, FileSet& set)
+void WriteComparison(const Comparison& c, const cv::Mat& a, const ComparedFiles& files, const std::string& folder, FileSet& set)
 {
 	std::vector<std::string> data;
 	for (size_t k = 0; k < c.lines.size(); ++k)
@@ -84,7 +86,7 @@ void WriteComparison(const Comparison& c, const cv::Mat& a, const std::string& f
 	for (size_t k = c.lines.size(); std::filesystem::exists(CsvName(folder, k)); ++k)
 		set.Remove(CsvName(folder, k));
 	if (!c.lines.empty())
-		PlotProfiles(c, data, folder, set);
+		PlotProfiles(c, files, data, folder, set);
 	else
 		set.Remove(Join(folder, "profile.png"));
 	cv::Mat both;
