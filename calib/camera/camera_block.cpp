@@ -100,6 +100,11 @@ std::string CameraBlockText(const StateCamera& c, const BlockNumbers& numbers, c
 		"\t\tshift <{}, {}>\n"
 		"\t\taperture_diameter {}\n"
 		"{}"
+		"#ifdef (TiltCal_Denoise)\n"
+		"#if (TiltCal_Denoise)\n"
+		"\t\tdenoise\n"
+		"#end\n"
+		"#end\n"
 		"\t}}\n"
 		"{}"
 		"\tblur_samples TiltCal_Blur_Samples\n"
@@ -124,6 +129,10 @@ std::string CameraBlockOf(const StateCamera& camera, const Place& place, double 
 	return CameraBlockText(camera, PlainNumbers(unit_mm), layout);
 }
 
-std::string BlurSamplesDefault() { return "#ifndef (TiltCal_Blur_Samples)\n\t#declare TiltCal_Blur_Samples = 128;\n#end\n"; }
+std::string BlurSamplesDefault()
+{
+	return "#ifndef (TiltCal_Blur_Samples)\n\t#declare TiltCal_Blur_Samples = 128;\n#end\n"
+		"// #declare TiltCal_Denoise = 1; takes their grain away, where pixels prove that they share it.\n";
+}
 
 }

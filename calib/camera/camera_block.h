@@ -59,8 +59,8 @@ struct BlockLayout
 	std::string place;    ///< lines: location, direction, right, up, .., each indented by one tab and ended
 };
 
-/// A `camera { tilt_lens { .. } .. }` block. Sets blur_samples by TiltCal_Blur_Samples, which BlurSamplesDefault declares. Ends with a
-/// line end.
+/// A `camera { tilt_lens { .. } .. }` block. Sets blur_samples by TiltCal_Blur_Samples, which BlurSamplesDefault declares, and `denoise` where the
+/// scene declares TiltCal_Denoise to be 1. Ends with a line end.
 std::string CameraBlockText(const StateCamera& camera, const BlockNumbers& numbers, const BlockLayout& layout);
 
 /// Only the lines of the effects, each indented by two tabs and ended.

@@ -29,7 +29,7 @@ bool IsIdentifier(const std::string& name)
 /// TiltCal_<these> are the files' own: camera-*.inc (write_inc.cpp), pose's (pose_inc.cpp), target's (target_inc.cpp).
 bool IsTaken(const std::string& name)
 {
-	static const std::regex taken("Rim|Distortion|Real_Lens|Blur_Samples|Pose(_Location|_Look_At|_Sky|_Camera)?|Target(_.*)?");
+	static const std::regex taken("Rim|Distortion|Real_Lens|Blur_Samples|Denoise|Pose(_Location|_Look_At|_Sky|_Camera)?|Target(_.*)?");
 	return std::regex_match(name, taken);
 }
 

@@ -208,7 +208,7 @@ void AddCamera(py::module_& m)
 		.def("blur", &BlurAll, py::arg("points"), "points (..., 3), mm -> diameters of their blur discs (...), px, to first order. NaN: not in front of the lens.")
 		.def("footprint", &FootprintAll, py::arg("points"), py::arg("count") = 64, "points (..., 3), mm -> outlines of their blur discs (..., count, 2), px.")
 		.def("povray", [](const StateCamera& c, double unit_mm) { return CameraBlockOf(c, {}, unit_mm); }, py::arg("unit_mm") = 1.0,
-			"The camera { tilt_lens { ... } } block for the patched POV-Ray, at the origin; the scene declares TiltCal_Blur_Samples.")
+			"The camera { tilt_lens { ... } } block for the patched POV-Ray, at the origin; the scene declares TiltCal_Blur_Samples, and TiltCal_Denoise = 1 where it wants denoise.")
 		.def("__repr__", [](const StateCamera& c) { return "<tiltcal.Camera " + c.state + ", tilt " + std::to_string(c.lens_tilt_deg) + " degrees>"; });
 	m.def("read_camera", [](const std::filesystem::path& file, const std::string& state) { return ReadStateCamera(file.string(), state); }, py::arg("file"),
 		py::arg("state") = "", "The camera of a state of calibration.json (tiltcal calibrate, import); '': the first, which is the untilted one.");

@@ -3,7 +3,7 @@
 //   povray board.pov +L<folder of tiltcal calibrate --out> Declare=State=1 Declare=Photo=3 +W1800 +H1200
 //
 // State: 0 untilted, 1 plus5, 2 minus5. Photo: 1, 2, ... in the order of that state's files.
-// TiltCal_Blur_Samples and TiltCal_Distortion are the camera file's own switches; Declare works for them too.
+// TiltCal_Blur_Samples, TiltCal_Denoise and TiltCal_Distortion are the camera file's own switches; Declare works for them too.
 #version 3.7;
 global_settings { assumed_gamma 1 }
 #include "board.inc"

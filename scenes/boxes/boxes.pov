@@ -4,7 +4,7 @@
 //
 // State: 0 untilted, 1 plus5, 2 minus5. Any size of the photographs' 3:2 will do.
 // Placed: 1 where the untilted photograph says (pose.inc, by `tiltcal pose`; README.md), 0 where scene.json says.
-// TiltCal_Blur_Samples and TiltCal_Distortion are the camera file's own switches; Declare works for them too.
+// TiltCal_Blur_Samples, TiltCal_Denoise and TiltCal_Distortion are the camera file's own switches; Declare works for them too.
 #version 3.7;
 global_settings { assumed_gamma 1 }
 #include "boxes.inc"

@@ -42,6 +42,6 @@ function(write_summary OUT STATES)
 		"This lens has field curvature; the plane that fits its best focus corresponds to 5.4 to 5.6 degrees.\n\n"
 		"## Table 2: mean brightness error, photograph against render, of 255, red / green line\n\n"
 		"${errors}"
-		"\nRed: row 660. Green: column 900. `shading` divides out what is left of a smooth shading; `gain` brings both to one exposure and no more.\n\n"
+		"\nRed: row 660. Green: column 900. `shading` divides out what is left of a smooth shading; `gain` brings both to one exposure and no more. The renders have ${SAMPLES} lens samples a pixel and are denoised.\n\n"
 		"${pictures}")
 endfunction()

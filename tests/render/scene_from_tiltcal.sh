@@ -44,6 +44,21 @@ pose)
 	render "$ours" markers.png markers.pov +W900 +H600 +FN16 File_Gamma=1 +A0.0 +AM2 +R4 -J
 	check "markers" "$markers" check markers.png 0.1 # 16 samples a pixel, of 50 pixels a marker
 	;;
+denoise)
+	# The switch of written cameras: off where nothing is declared; on, the picture is nearer to that of many samples.
+	run "$tiltcal" lens "$here/../../scenes/boxes/double-gauss.txt" --focal-length 45 --f-number 2.8 --focus 618 --state plus5:tilt=5 --out lens
+	printf '%s\n' '#version 3.7; global_settings { assumed_gamma 1 } #include "lens/camera-plus5.inc" TiltCal_plus5(0, z, y)' \
+		'plane { z, 1500 pigment { checker rgb 0.2 rgb 0.8 scale 100 } finish { ambient 1 diffuse 0 } }' > far.pov
+	render "$ours" many.exr far.pov Declare=TiltCal_Blur_Samples=512
+	render "$ours" grain.exr far.pov Declare=TiltCal_Blur_Samples=8
+	render "$ours" off.exr far.pov Declare=TiltCal_Blur_Samples=8 Declare=TiltCal_Denoise=0
+	render "$ours" on.exr far.pov Declare=TiltCal_Blur_Samples=8 Declare=TiltCal_Denoise=1
+	check "off" "$compare" rms 0 grain.exr off.exr
+	grain=$("$compare" rms 1 many.exr grain.exr | awk '/RMS/ { for(i = 1; i <= NF; i++) if($i ~ /^[0-9.]+(e-[0-9]+)?$/) { print $i; exit } }')
+	echo "grain: $grain"
+	check "on" "$compare" rms "$grain" many.exr on.exr
+	"$compare" rms 0 grain.exr on.exr > /dev/null 2>&1 && fail "TiltCal_Denoise = 1 changes nothing"
+	;;
 *) fail "no case '$case'" ;;
 esac
 finish

@@ -107,7 +107,7 @@ struct Place
 };
 
 /// The camera as a `camera { tilt_lens { .. } .. }` block for the patched POV-Ray. `unit_mm`: millimetres to a scene unit. Expects
-/// TiltCal_Blur_Samples to be declared (the lens samples of a pixel).
+/// TiltCal_Blur_Samples to be declared (the lens samples of a pixel); TiltCal_Denoise may be (1: `denoise`).
 TILTCAL_API std::string CameraBlockOf(const StateCamera& camera, const Place& place, double unit_mm = 1);
 
 }
