@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lens/adaptive.h"
 #include "lens/convergence.h"
 #include "lens/sampler.h"
 #include "lens/statistics.h"
@@ -35,6 +36,9 @@ struct SampleSums
 	/// average: light that is the same all over the lens has no grain then.
 	bool painted;
 	double weights[3], square_weights[3], weighted[3];
+
+	/// How the first samples differ from the neighbours', where that is asked.
+	Between between;
 
 	/// Mean red, green and blue as they stood at the latest powers of two, latest first.
 	double earlier[ChangesKept + 1][3];
@@ -137,14 +141,16 @@ struct SampleSums
 	}
 
 	/// The pixel's samples as evidence of rare bright lights, which pixels with no more than the `first`
-	/// may have missed: its brightest sample is farther out than that of as many normal ones would be.
+	/// may have missed: its brightest sample is farther out than that of as many normal ones would be. One or two samples miss what
+	/// is not rare too; of that, what is beyond the range of a picture file counts, beside which all else is small.
 	RareLight Rarity(int first) const
 	{
 		if(count < 2)
 			return RareLight();
 		const int i = sum[0] >= sum[1] && sum[0] >= sum[2] ? 0 : sum[1] >= sum[2] ? 1 : 2;
 		const double mean = sum[i] / count, above = brightest - mean, variance = Variance();
-		if(!(above * above > 2.0 * std::log(double(count)) * variance) || !(variance > 0.0))
+		const bool rare = above * above > 2.0 * std::log(double(count)) * variance, too_bright = (first < LeastOwnVariance) && (brightest > 1.0f);
+		if(!(variance > 0.0) || !(rare || too_bright))
 			return RareLight();
 		// As of bright samples that are alike among dark ones that are, a part p of all.
 		const double odds = variance * (count - 1) / (above * above * count), p = odds / (1.0 + odds);
@@ -152,7 +158,14 @@ struct SampleSums
 		int j = 0;
 		while((j < ChangesKept) && (earlier_counts[j] > first))
 			j++;
-		return RareLight::Of(Clipped(mean) - Clipped(dark), p, std::min(first, count), (count <= first) || (std::fabs(earlier[j][i] - dark) * first > 0.5 * bright));
+		// Of one or two samples the mean may be forgotten: then of the fewest that are remembered.
+		const int least = (first < LeastOwnVariance) ? std::max(first, earlier_counts[j]) : first;
+		const bool met = (count <= first) || (std::fabs(earlier[j][i] - dark) * least > 0.5 * bright);
+		// Where so few meet a light, all pixels around that it reaches go on and find it, and where they do not, none: what was found says
+		// nothing of what was missed, and is not taken off.
+		if(too_bright && !met)
+			return RareLight();
+		return RareLight::Of(Clipped(mean) - Clipped(dark), p, std::min(least, count), met);
 	}
 
 	/// The same for a pixel that may have stopped early because its few samples agreed
@@ -164,6 +177,12 @@ struct SampleSums
 
 		if(count >= FewSamples)
 			return c;
+		if((c.changes == 0) && between.known)
+		{
+			// A single sample: of its error only its neighbours tell. v(1) = change / (2^1 - 1).
+			c.changes = 1;
+			c.change[0] = between.mean;
+		}
 		// Nets of so few points are a little better than independent samples: v(n) ~ n^-1.2.
 		const double fall = 2.2974;             // 2^1.2
 		double change = variance / count * HiddenPart * (fall - 1.0);
@@ -197,14 +216,17 @@ struct SampleSums
 		return worst;
 	}
 
+	/// The same, or less than four samples' differences from the neighbours': what the decision to stop goes by.
+	double VarianceToJudgeBy() const { return tilt_lens::VarianceToJudgeBy(count, count > 1 ? Variance() : 0.0, between); }
+
 	/// Estimated error of the mean, RMS of red, green and blue, from this pixel alone: the mean of what each of the latest
 	/// doublings says of v(n) ~ n^-1.4, which its own share in a picture's estimate (convergence.h) is too noisy
-	/// to fit. 1 of a single sample, which says nothing of its error. `neighbourhood`: as in Changes.
+	/// to fit. 1 of a single sample, which says nothing of its error, unless it was compared with its neighbours'. `neighbourhood`: as in Changes.
 	double StandardError(double neighbourhood) const
 	{
-		if(count < 2)
-			return 1.0;
 		const LevelChanges c = Changes(neighbourhood);
+		if(count < 2)
+			return between.known ? std::sqrt(c.change[0]) : 1.0;
 		const double fall = 2.639;              // 2^1.4, between nets' 1.1 and 1.7
 		double variance = 0.0, weight = 1.0 / (fall - 1.0);
 		for(int j = 0; j < c.changes; j++, weight /= fall)

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
+#include <algorithm>
+#include <limits>
+
 // frame.h must always be the first POV file included (pulls in platform config)
 #include "backend/frame.h"
 #include "backend/colour/colour.h"
@@ -29,11 +32,29 @@ void TileBorders::Look(int left, int top, int right, int bottom, int width, int 
 		pictureWidth = width;
 		pictureHeight = height;
 		begun->clear();
+		firstMeans.clear();
 		noted.assign(size_t(width) * height, UnknownUncertainty);
 	}
 	known.clear();
 	for(int y = top; y <= bottom; y++)
 		known.insert(known.end(), noted.begin() + size_t(y) * width + left, noted.begin() + size_t(y) * width + right + 1);
+}
+
+void TileBorders::LookAtFirst(int left, int top, int right, int bottom, int channels, std::vector<float>& means)
+{
+	if(firstMeans.empty())
+		firstMeans.assign(size_t(pictureWidth) * pictureHeight * channels, std::numeric_limits<float>::quiet_NaN());
+	means.clear();
+	for(int y = top; y <= bottom; y++)
+	{
+		const std::vector<float>::const_iterator row = firstMeans.begin() + size_t(y) * pictureWidth * channels;
+		means.insert(means.end(), row + left * channels, row + (right + 1) * channels);
+	}
+}
+
+void TileBorders::NoteFirst(int left, int right, int y, int channels, const float *means)
+{
+	std::copy(means, means + (right - left + 1) * channels, firstMeans.begin() + (size_t(y) * pictureWidth + left) * channels);
 }
 
 bool TileBorders::Take(TilePixel& pixel)
@@ -53,7 +74,9 @@ void TileBorders::Note(int x, int y, Uncertainty uncertainty)
 
 void TileBorders::Keep(const TilePixel& pixel)
 {
-	begun->insert(std::make_pair(std::make_pair(pixel.y, pixel.x), pixel));
+	const std::pair<Pixels::iterator, bool> kept = begun->insert(std::make_pair(std::make_pair(pixel.y, pixel.x), pixel));
+	if(!kept.second && (kept.first->second.sums.count < pixel.sums.count))
+		kept.first->second = pixel;
 }
 
 }

@@ -33,13 +33,19 @@ class TileBorders
 		/// width x height into `known`, row by row, UnknownUncertainty where no tile has been yet.
 		void Look(int left, int top, int right, int bottom, int width, int height, std::vector<Uncertainty>& known);
 
+		/// The same of the means of pixels' first samples, so many numbers a pixel; the first is NaN where no tile has been yet. After Look.
+		void LookAtFirst(int left, int top, int right, int bottom, int channels, std::vector<float>& means);
+
 		/// Hands over the pixel if another tile has begun it; false if not.
 		bool Take(TilePixel& pixel);
 
 		/// Notes a pixel's uncertainty.
 		void Note(int x, int y, Uncertainty uncertainty);
 
-		/// Keeps a pixel that belongs to another tile for it.
+		/// Notes a row of means as LookAtFirst gives them.
+		void NoteFirst(int left, int right, int y, int channels, const float *means);
+
+		/// Keeps a pixel that belongs to another tile for it; of two the one with more samples.
 		void Keep(const TilePixel& pixel);
 
 		/// Held while any of the above is called.
@@ -51,6 +57,7 @@ class TileBorders
 		typedef std::map<std::pair<int, int>, TilePixel> Pixels;
 		int pictureWidth, pictureHeight;
 		std::vector<Uncertainty> noted;
+		std::vector<float> firstMeans;  // only where a scene's pixels may stop at so few samples: 20 bytes a pixel
 		Pixels *begun;                  // by (y, x)
 };
 

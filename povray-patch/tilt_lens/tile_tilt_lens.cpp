@@ -2,6 +2,8 @@
 //
 // Adaptive sampling of pixel and lens, a tile at a time.
 
+#include <algorithm>
+
 // frame.h must always be the first POV file included (pulls in platform config)
 #include "backend/frame.h"
 #include "backend/colour/colour.h"
@@ -30,7 +32,7 @@ void TracePixel::ConvergeTiltLensPixel(TilePixel& pixel, DBL width, DBL height)
 	for(; ; pixel.level++)
 	{
 		SampleTiltLensPixel(pixel, levels[pixel.level].samples, width, height);
-		if((pixel.level + 1 == levels.size()) || StopsAt(levels[pixel.level], pixel.sums.Variance()))
+		if((pixel.level + 1 == levels.size()) || StopsAt(levels[pixel.level], pixel.sums.VarianceToJudgeBy()))
 			break;
 	}
 	cooperate();
@@ -108,6 +110,58 @@ bool TracePixel::GiveDenoisedTile(int left, int top, int right, int bottom, vect
 	return true;
 }
 
+/// The first samples of the pixels of `tile` and `apron`, which fill left..right, top..bottom as far as other tiles have not, and what
+/// they differ by from those of their neighbours.
+void TracePixel::CompareFirstTiltLensSamples(vector<TilePixel>& tile, vector<TilePixel>& apron, int left, int top, int right, int bottom, int width, int height)
+{
+	using namespace tilt_lens;
+	TileBorders& borders = *camera.Tilt_Lens.borders;
+	const int samples = camera.Tilt_Lens.levels.front().samples, channels = SampleSums::Channels;
+	const int l = max(left - 1, 0), r = min(right + 1, width - 1), t = max(top - 1, 0), b = min(bottom + 1, height - 1), columns = r - l + 1;
+	vector<float> means;
+	vector<TilePixel> ring;
+
+	{
+		boost::mutex::scoped_lock lock(borders.mutex);
+		borders.LookAtFirst(l, t, r, b, channels, means);
+	}
+	const auto look = [&](TilePixel& pixel)
+	{
+		float *const mean = &means[(size_t(pixel.y - t) * columns + (pixel.x - l)) * channels];
+		if(mean[0] == mean[0])
+			return;
+		SampleTiltLensPixel(pixel, samples, width, height);
+		const Colour colour = pixel.sums.Mean();
+		for(int c = 0; c < channels; c++)
+			mean[c] = colour[c];
+	};
+	std::for_each(tile.begin(), tile.end(), look);
+	std::for_each(apron.begin(), apron.end(), look);
+	for(int y = t; y <= b; y++)
+		for(int x = l; x <= r; x++)
+			if(means[(size_t(y - t) * columns + (x - l)) * channels] != means[(size_t(y - t) * columns + (x - l)) * channels])
+			{
+				ring.push_back(TilePixel(x, y, camera.Tilt_Lens.Seed()));
+				look(ring.back());
+			}
+
+	{
+		boost::mutex::scoped_lock lock(borders.mutex);
+		for(int y = t; y <= b; y++)
+			borders.NoteFirst(l, r, y, channels, &means[size_t(y - t) * columns * channels]);
+		for(vector<TilePixel>::const_iterator pixel = ring.begin(); pixel != ring.end(); pixel++)
+			borders.Keep(*pixel);
+	}
+
+	const FirstMeans first = { &means[0], l, t, columns, channels };
+	const auto compare = [&](TilePixel& pixel)
+	{
+		pixel.sums.between = BetweenNeighbours(first, samples, pixel.x, pixel.y, 0, 0, width - 1, height - 1);
+	};
+	std::for_each(tile.begin(), tile.end(), compare);
+	std::for_each(apron.begin(), apron.end(), compare);
+}
+
 /// Samples the pixels of a tile as far as they need it by themselves, and the
 /// neighbours beyond its edges too, and sets the level that each is to reach at least.
 /// Neighbours within the picture count wherever the tile ends, so that the picture
@@ -128,23 +182,25 @@ void TracePixel::ConvergeTiltLensTile(vector<TilePixel>& tile, int left, int top
 		borders.Look(l, t, r, b, width, height, uncertainty);
 		for(vector<TilePixel>::iterator pixel = tile.begin(); pixel != tile.end(); pixel++)
 			borders.Take(*pixel);
+		for(int y = t; y <= b; y++)
+			for(int x = l; x <= r; x++)
+			{
+				const bool in_tile = (x >= left) && (x <= right) && (y >= top) && (y <= bottom);
+				if(in_tile || (uncertainty[(y - t) * columns + (x - l)] != UnknownUncertainty))
+					continue;
+				apron.push_back(TilePixel(x, y, lens.Seed()));
+				borders.Take(apron.back());
+			}
 	}
 
-	for(vector<TilePixel>::iterator pixel = tile.begin(); pixel != tile.end(); pixel++)
-	{
-		if(pixel->sums.count == 0)
-			ConvergeTiltLensPixel(*pixel, width, height);
-		uncertainty[(pixel->y - t) * columns + (pixel->x - l)] = ToUncertainty(pixel->sums.Variance());
-	}
-	for(int y = t; y <= b; y++)
-		for(int x = l; x <= r; x++)
+	if(lens.levels.front().samples < LeastOwnVariance)
+		CompareFirstTiltLensSamples(tile, apron, l, t, r, b, width, height);
+	vector<TilePixel> *const parts[2] = { &tile, &apron };
+	for(int part = 0; part < 2; part++)
+		for(vector<TilePixel>::iterator pixel = parts[part]->begin(); pixel != parts[part]->end(); pixel++)
 		{
-			Uncertainty& u = uncertainty[(y - t) * columns + (x - l)];
-			if(u != UnknownUncertainty)
-				continue;
-			apron.push_back(TilePixel(x, y, lens.Seed()));
-			ConvergeTiltLensPixel(apron.back(), width, height);
-			u = ToUncertainty(apron.back().sums.Variance());
+			ConvergeTiltLensPixel(*pixel, width, height);
+			uncertainty[(pixel->y - t) * columns + (pixel->x - l)] = ToUncertainty(pixel->sums.VarianceToJudgeBy());
 		}
 
 	{

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace tiltcost
 {
@@ -79,7 +80,7 @@ Pilot::Pixel Pilot::Prepare(const std::vector<PilotLevel>& levels)
 
 	Pixel pixel;
 	for (size_t k = 0; k < levels.size(); ++k)
-		pixel.levels.push_back({{float(levels[k].mean[0]), float(levels[k].mean[1]), float(levels[k].mean[2])}, tilt_lens::ToUncertainty(levels[k].variance), levels[k].variance,
+		pixel.levels.push_back({{float(levels[k].mean[0]), float(levels[k].mean[1]), float(levels[k].mean[2])}, levels[k].variance,
 			{means[LINEAR][k].SquaredDistance(means[LINEAR].back()), means[ENCODED][k].SquaredDistance(means[ENCODED].back())}});
 	for (int scale = 0; scale < SCALES; ++scale)
 	{
@@ -110,6 +111,23 @@ bool Pilot::IsInside(const Block& block, int x, int y, int reach)
 	return (!wide || (x >= reach && x < block.width - reach)) && (!high || (y >= reach && y < block.height - reach));
 }
 
+/// What the first samples of a block's pixels differ by; nothing where they are too many to be compared. The pilot keeps no
+/// transparency, whose edges a render sees too.
+std::vector<tilt_lens::Between> Pilot::CompareFirst(const Block& block, int samples) const
+{
+	std::vector<tilt_lens::Between> between(block.pixels.size());
+	if (samples >= tilt_lens::LeastOwnVariance)
+		return between;
+	std::vector<float> means;
+	for (const Pixel& pixel : block.pixels)
+		means.insert(means.end(), std::begin(pixel.levels[Known(samples)].mean), std::end(pixel.levels[Known(samples)].mean));
+	const tilt_lens::FirstMeans first = {means.data(), 0, 0, block.width, 3};
+	for (int y = 0; y < block.height; ++y)
+		for (int x = 0; x < block.width; ++x)
+			between[size_t(y * block.width + x)] = tilt_lens::BetweenNeighbours(first, samples, x, y, 0, 0, block.width - 1, block.height - 1);
+	return between;
+}
+
 /// The level that each pixel of a block goes on to, as if the block were the picture.
 std::vector<size_t> Pilot::LevelsOf(const Block& block, const std::vector<SampleLevel>& levels) const
 {
@@ -120,17 +138,21 @@ std::vector<size_t> Pilot::LevelsOf(const Block& block, const std::vector<Sample
 	std::vector<size_t> known;
 	for (const SampleLevel& level : levels)
 		known.push_back(Known(level.samples));
+	const std::vector<tilt_lens::Between> between = CompareFirst(block, levels[0].samples);
+	const auto Variance = [&](size_t i)
+	{
+		return tilt_lens::VarianceToJudgeBy(levels[chosen[i]].samples, block.pixels[i].levels[known[chosen[i]]].variance, between[i]);
+	};
 	const auto Converge = [&](size_t i)
 	{
-		size_t& l = chosen[i];
-		while (l + 1 < levels.size() && !StopsAt(levels[l], block.pixels[i].levels[known[l]].variance))
-			++l;
+		while (chosen[i] + 1 < levels.size() && !StopsAt(levels[chosen[i]], Variance(i)))
+			++chosen[i];
 	};
 	std::vector<tilt_lens::Uncertainty> uncertainty;
 	for (size_t i = 0; i < block.pixels.size(); ++i)
 	{
 		Converge(i);
-		uncertainty.push_back(block.pixels[i].levels[known[chosen[i]]].uncertainty);
+		uncertainty.push_back(tilt_lens::ToUncertainty(Variance(i)));
 	}
 	const tilt_lens::UncertaintyMap map = {uncertainty.data(), 0, 0, block.width};
 	for (int y = 0; y < block.height; ++y)

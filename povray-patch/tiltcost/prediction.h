@@ -85,7 +85,6 @@ private:
 	struct Level
 	{
 		float mean[3];                  ///< linear, not clipped
-		tilt_lens::Uncertainty uncertainty;
 		double variance;                ///< of a sample
 		double off[SCALES];             ///< squared distance from m(N), averaged over the channels
 	};
@@ -122,6 +121,7 @@ private:
 	};
 
 	static Pixel Prepare(const std::vector<tilt_lens::PilotLevel>& levels);
+	std::vector<tilt_lens::Between> CompareFirst(const Block& block, int samples) const;
 	std::vector<size_t> LevelsOf(const Block& block, const std::vector<tilt_lens::SampleLevel>& levels) const;
 	static bool IsInside(const Block& block, int x, int y, int reach = tilt_lens::NeighbourReach);
 	size_t Known(int count) const;

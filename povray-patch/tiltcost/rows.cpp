@@ -69,6 +69,8 @@ std::string RowsText(const PilotRun& run, const Pilot& pilot, const Setting& set
 {
 	std::vector<double> rows = RowSeconds(pilot.BlockCosts(setting), run.log.width, run.log.height);
 	int margin = setting.min > 0 || setting.variance > 0 ? tilt_lens::NeighbourReach : 0;
+	if (margin > 0 && setting.min > 0 && setting.min < tilt_lens::LeastOwnVariance)
+		margin++;                       // for the first samples that theirs are compared with
 	if (setting.denoise)
 	{
 		margin = tilt_lens::DenoiseReach;

@@ -27,7 +27,7 @@ namespace
 
 std::vector<Setting> Grid()
 {
-	const int least_min = 4, greatest_min = 32, least_max = 16, greatest_max = 8192;
+	const int least_min = 1, greatest_min = 32, least_max = 16, greatest_max = 8192;
 	std::vector<Setting> grid;
 	for (int max = least_max / 4; max <= greatest_max; max *= 2)
 	{

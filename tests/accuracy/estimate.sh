@@ -23,7 +23,7 @@ picture() {
 
 picture truth Declare=Race_Max=2048 Declare=Race_Variance=0 Declare=Race_Seed=1
 for denoise in 0 1; do
-	for setting in "0 32 0" "0 128 0" "4 64 0.001" "8 256 0.0001"; do
+	for setting in "0 32 0" "0 128 0" "1 64 0.001" "2 64 0.0003" "4 64 0.001" "8 256 0.0001"; do
 		set -- $setting
 		picture tested "Declare=Race_Min=$1" "Declare=Race_Max=$2" "Declare=Race_Variance=$3" "Declare=Race_Denoise=$denoise"
 		estimate=$(sed -n 's/Estimated Error: [>= ]*\([0-9.]*\).*/\1/p' tested.ppm.log)

@@ -48,6 +48,14 @@ plain)
 	threads_and_strips "$ours" "tilt and blur"
 	grep 'Samples/Pixel:   min 16 .* max 128 ' whole.ppm.log || fail "the number of samples does not adapt: nothing shown"
 	;;
+few)
+	# Pixels of one sample, which are judged by their neighbours'.
+	for least in 1 2; do
+		scene "$lens" "blur_samples $least, 64 variance 1/1000" ""
+		threads_and_strips "$ours" "tilt and blur from $least on"
+		grep "Samples/Pixel:   min $least .* max 64 " whole.ppm.log || fail "no pixel has $least: nothing shown"
+	done
+	;;
 aberrations)
 	# With what else moves or withholds rays.
 	scene 'tilt_lens { lens_tilt 12 tilt_direction 30 focal_distance 8 aperture_diameter 0.4 aberrations { spherical -2 coma 8 astigmatism 20 distortion 20

@@ -35,7 +35,10 @@ TEST(Levels, ArePowersOfTwoFromMinToMax)
 {
 	EXPECT_EQ(Samples(SampleLevels(0, 100, 1e-4, 0.9, Half)), (std::vector<int>{ 16, 32, 64, 100 }));
 	EXPECT_EQ(Samples(SampleLevels(5, 64, 1e-4, 0.9, Half)), (std::vector<int>{ 8, 16, 32, 64 }));
-	EXPECT_EQ(Samples(SampleLevels(1, 8, 1e-4, 0.9, Half)), (std::vector<int>{ 4, 8 }));
+	EXPECT_EQ(Samples(SampleLevels(1, 8, 1e-4, 0.9, Half)), (std::vector<int>{ 1, 2, 4, 8 }));
+	EXPECT_EQ(Samples(SampleLevels(2, 8, 1e-4, 0.9, Half)), (std::vector<int>{ 2, 4, 8 }));
+	EXPECT_EQ(Samples(SampleLevels(3, 8, 1e-4, 0.9, Half)), (std::vector<int>{ 4, 8 }));
+	EXPECT_DOUBLE_EQ(SampleLevels(1, 8, 1e-4, 0.9, Half)[0].stop_below, ShareBetween * 1e-4) << "one sample has no variance of its own";
 	EXPECT_EQ(Samples(SampleLevels(64, 64, 1e-4, 0.9, Half)), (std::vector<int>{ 64 }));
 	EXPECT_EQ(Samples(SampleLevels(4, 1000, 0.0, 0.9, Half)), (std::vector<int>{ 1000 })) << "variance 0: all samples everywhere";
 	EXPECT_EQ(Samples(SampleLevels(0, 3, 1e-4, 0.9, Half)), (std::vector<int>{ 3 }));
@@ -56,6 +59,65 @@ TEST(Uncertainty, IsTheVarianceWithinAnEighthOfAnOctave)
 	}
 	EXPECT_NE(ToUncertainty(1e300), UnknownUncertainty);
 	EXPECT_GT(FromUncertainty(ToUncertainty(1e-300)), 0.0);
+}
+
+// Of independent samples, half the mean squared difference of two is their variance, whatever their number.
+TEST(BetweenNeighbours, IsTheVarianceOfASampleWhereThePictureIsFlat)
+{
+	const int side = 100, channels = 5;
+	std::mt19937 random(3);
+	for(int samples : { 1, 2 })
+	{
+		std::normal_distribution<float> mean(0.5f, 0.1f / std::sqrt(float(samples)));
+		std::vector<float> means(side * side * channels);
+		for(float& m : means)
+			m = mean(random);
+		const FirstMeans first = { means.data(), 0, 0, side, channels };
+		double sum = 0.0;
+		for(int y = 0; y < side; y++)
+			for(int x = 0; x < side; x++)
+			{
+				const Between between = BetweenNeighbours(first, samples, x, y, 0, 0, side - 1, side - 1);
+				sum += between.mean;
+				EXPECT_GE(between.most, between.mean);
+				EXPECT_TRUE(between.known);
+			}
+		// 30,000 normal numbers: their variance is known to sqrt(2 / 30,000) = 0.8 %, five of which are 4 %; each counts in nine pixels, which does not add any.
+		EXPECT_NEAR(sum / (side * side), 0.01, 0.0004) << samples;
+	}
+}
+
+// An edge is seen from both sides, in any channel; what lies beyond the picture is not.
+TEST(BetweenNeighbours, SeesAnEdgeFromBothSides)
+{
+	const int side = 6, channels = 5;
+	for(int channel = 0; channel < channels; channel++)
+	{
+		std::vector<float> means(side * side * channels, 0.25f);
+		for(int i = 0; i < side * side; i++)
+			if(i % side >= 3)
+				means[size_t(i * channels + channel)] = 0.75f;
+		const FirstMeans first = { means.data(), 10, 20, side, channels };
+		const auto at = [&](int x, int left, int right) { return BetweenNeighbours(first, 2, 10 + x, 22, 10 + left, 20, 10 + right, 25); };
+		EXPECT_EQ(at(1, 0, 5).most, 0.0);
+		EXPECT_DOUBLE_EQ(at(2, 0, 5).most, 0.25) << "0.5^2 / 2 of a mean of two";
+		EXPECT_DOUBLE_EQ(at(3, 0, 5).most, 0.25);
+		EXPECT_EQ(at(4, 0, 5).most, 0.0);
+		EXPECT_EQ(at(2, 0, 2).most, 0.0) << "the picture ends before the edge";
+		// Three of eight neighbours, one of the three colours; transparency is no light.
+		EXPECT_NEAR(at(2, 0, 5).mean, channel < 3 ? 0.25 * 3 / 8 / 3 : 0.0, 1e-12);
+	}
+	EXPECT_EQ(BetweenNeighbours(FirstMeans{ std::vector<float>(5, 1.0f).data(), 0, 0, 1, 5 }, 1, 0, 0, 0, 0, 0, 0).most, 0.0) << "a picture of one pixel";
+}
+
+TEST(BetweenNeighbours, JudgeWhatIsTooLittleToJudgeItself)
+{
+	Between between;
+	between.most = 0.5;
+	EXPECT_EQ(VarianceToJudgeBy(1, 0.0, between), 0.5);
+	EXPECT_EQ(VarianceToJudgeBy(2, 0.1, between), 0.5);
+	EXPECT_EQ(VarianceToJudgeBy(2, 0.7, between), 0.7);
+	EXPECT_EQ(VarianceToJudgeBy(4, 0.1, between), 0.1) << "four samples speak for themselves";
 }
 
 // One uncertain pixel among certain ones makes those within reach go on, and no others.

@@ -122,6 +122,23 @@ TEST(Prediction, Chi2IsWhatIsExceededWithThatProbability)
 	EXPECT_NEAR(Chi2(3, 0.95), 0.352, 0.0005);
 }
 
+// A step in the middle of a block, without noise.
+TEST(Prediction, PixelsOfOneSampleGoOnWhereTheirNeighboursDiffer)
+{
+	const auto edge = [](int left, double dark, double bright)
+	{
+		return BlockText(left, 1, 64, [=](int pixel, int) { return Grey(pixel % Side < Side / 2 ? dark : bright, 0); });
+	};
+	const Setting setting = {1, 64, 1e-3, 0.9};
+	EXPECT_EQ(Pilot(ParsePilot(edge(0, 0.3, 0.3))).Predict(setting).samples_per_pixel, 1);
+	// 0.01^2 / 2 is below a tenth of the variance, 0.03^2 / 2 above, even of what two samples may have.
+	EXPECT_EQ(Pilot(ParsePilot(edge(0, 0.3, 0.31))).Predict(setting).samples_per_pixel, 1);
+	// Two of the twelve inside columns go on to four samples, which have no variance, and stop.
+	EXPECT_EQ(Pilot(ParsePilot(edge(0, 0.3, 0.33))).Predict(setting).samples_per_pixel, (2 * 4 + 10) / 12.0);
+	EXPECT_EQ(Pilot(ParsePilot(edge(0, 0.3, 0.33))).Predict({2, 64, 1e-3, 0.9}).samples_per_pixel, (2 * 4 + 10 * 2) / 12.0);
+	EXPECT_EQ(Pilot(ParsePilot(edge(0, 0.3, 0.9))).Predict({4, 64, 1e-3, 0.9}).samples_per_pixel, 4) << "they ask no neighbour";
+}
+
 TEST(Prediction, FixedSamplesFollowThePowerLawAndGoOnBeyondThePilot)
 {
 	const double size = 4e-3;
