@@ -172,7 +172,8 @@ double Renderer::StartUp(Opponent opponent, bool tilted) const
 	for (int i = 0; i < 4; ++i)
 	{
 		const fs::path& program = opponent == Opponent::STOCK ? programs.stock : programs.ours;
-		least = std::min(least, RunMeasured(Command(program, setting, 1, 1, {0, 0, 1, 1}), work, work / "povray.log").cpu);
+		// One pixel of the picture, whose file is written whole, however small the part that is judged.
+		least = std::min(least, RunMeasured(Command(program, setting, width, height, {judged.left, judged.top, 1, 1}), work, work / "povray.log").cpu);
 	}
 	return least;
 }

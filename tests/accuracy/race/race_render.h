@@ -38,7 +38,7 @@ public:
 	// As Render, or, when `reuse`, what an earlier race with the same program, scene and setting found.
 	Rendered RenderOrReuse(const Setting& setting, bool reuse, int repeat) const;
 
-	// CPU seconds of a run whose picture is one pixel: start, parsing, end.
+	// CPU seconds of a run that traces one pixel of the picture: start, parsing, the file, end.
 	double StartUp(Opponent opponent, bool tilted) const;
 
 	// Averaged pinholes: `each` receives the mean of the first M frames for every power of two M up to `frames`.

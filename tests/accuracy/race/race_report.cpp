@@ -266,7 +266,7 @@ void WritePage(const RaceReport& report, const fs::path& out, const fs::path& wo
 		"<li>Each stock picture is judged by the smallest of three errors: against the truth; against the truth moved by the part of a pixel that suits it best; "
 		"against stock's own limit, less the limit's own noise. Its sampling errors are thus not held against it.</li>\n"
 		"<li>CPU time, user and system, one thread, the least of " << report.settings.repeats << " runs, opponents by turns there and back"
-		<< fmt::format(" (median spread {:.1f}&thinsp;%)", 100 * MedianSpread(report)) << "; the time of a one-pixel run is taken off for all, "
+		<< fmt::format(" (median spread {:.1f}&thinsp;%)", 100 * MedianSpread(report)) << "; the time of a run that traces one pixel of the same picture is taken off for all, "
 		"for pinholes as often as there are frames.</li>\n"
 		"<li>Curves are the lower left of all settings, convex in logarithms. &gt;: the opponent never got there, its last slope, or that of plain averaging "
 		"if steeper, is taken on; &lt;: the same for ours, with the flatter slope; ~: both.</li>\n"
