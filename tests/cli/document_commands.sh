@@ -95,6 +95,7 @@ run() {
 	# The repository's top, as the commands see it: what they write goes elsewhere.
 	mkdir -p tree/build/release tree/out/demo && cd tree || exit 99
 	ln -s "$root/scenes" scenes
+	mkdir tests && ln -s "$root/tests/accuracy" tests/accuracy
 	ln -s "$build/bin" build/release/bin
 	ln -s "$build/povray" build/release/povray
 	ln -s ../calibration out/demo/calibration
