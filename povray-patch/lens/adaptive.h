@@ -70,7 +70,7 @@ inline Uncertainty ToUncertainty(double variance)
 /// Inverse of ToUncertainty, within 2^(1/8) where variance lies in 2^-47 .. 2^16.
 inline double FromUncertainty(Uncertainty u)
 {
-	// Every pixel asks for 25 of them.
+	// Every pixel asks for it.
 	struct Table
 	{
 		double variance[256];
@@ -94,105 +94,10 @@ struct Between
 	bool known = false;
 };
 
-/// Means of the first samples of a rectangle of pixels, row by row, from pixel (left, top) on.
-struct FirstMeans
-{
-	const float *first;
-	int left, top, columns, channels;
-
-	const float *operator()(int x, int y) const { return first + (size_t(y - top) * columns + (x - left)) * channels; }
-};
-
-/// Compares a pixel's first `samples` with those of the eight around it. Pixels beyond left..right, top..bottom (inclusive), the
-/// picture, do not count.
-inline Between BetweenNeighbours(const FirstMeans& of, int samples, int x, int y, int left, int top, int right, int bottom)
-{
-	const float *own = of(x, y);
-	Between between;
-	int count = 0;
-
-	for(int ny = std::max(y - 1, top); ny <= std::min(y + 1, bottom); ny++)
-		for(int nx = std::max(x - 1, left); nx <= std::min(x + 1, right); nx++)
-		{
-			const float *other = of(nx, ny);
-			if(other == own)
-				continue;
-			count++;
-			for(int c = 0; c < of.channels; c++)
-			{
-				const double square = (double(other[c]) - own[c]) * (double(other[c]) - own[c]) * 0.5 * samples;
-				between.most = std::max(between.most, square);
-				if(c < 3)
-					between.mean += square / 3.0;
-			}
-		}
-	between.mean /= std::max(count, 1);
-	between.known = true;
-	return between;
-}
-
 /// Variance of a sample by which a pixel of so many is judged, `own` that of its own samples.
 inline double VarianceToJudgeBy(int samples, double own, const Between& between)
 {
 	return samples >= LeastOwnVariance ? own : samples > 1 ? std::max(between.most, own) : between.most;
-}
-
-/// Uncertainties of a rectangle of pixels, row by row, from pixel (left, top) on.
-struct UncertaintyMap
-{
-	const Uncertainty *first;
-	int left, top, columns;
-
-	Uncertainty operator()(int x, int y) const { return first[(y - top) * columns + (x - left)]; }
-};
-
-/// Pixels this far away count in a pixel's decision.
-const int NeighbourReach = 2;
-
-/// Variance per sample that the statistics assume of a pixel, from what it and its neighbours
-/// found by themselves. A few samples can miss what covers a few percent of the lens
-/// and then find nothing to be uncertain about; of 25 pixels hardly all miss it. Near
-/// neighbours count most. Pixels beyond left..right, top..bottom (inclusive), the
-/// picture, do not count.
-inline double NeighbourhoodVariance(const UncertaintyMap& of, int x, int y, int left, int top, int right, int bottom)
-{
-	double near_sum = 0.0, far_sum = 0.0;
-	int near_count = 0, far_count = 0;
-
-	for(int ny = std::max(y - NeighbourReach, top); ny <= std::min(y + NeighbourReach, bottom); ny++)
-		for(int nx = std::max(x - NeighbourReach, left); nx <= std::min(x + NeighbourReach, right); nx++)
-		{
-			const double v = FromUncertainty(of(nx, ny));
-			far_sum += v;
-			far_count++;
-			if((std::abs(nx - x) <= 1) && (std::abs(ny - y) <= 1))
-			{
-				near_sum += v;
-				near_count++;
-			}
-		}
-	return 0.5 * (near_sum / near_count + far_sum / far_count);
-}
-
-/// What the eight pixels around one and the sixteen around these found at most.
-struct MostAround
-{
-	Uncertainty near, far;
-};
-
-inline MostAround MostUncertainAround(const UncertaintyMap& of, int x, int y, int left, int top, int right, int bottom)
-{
-	MostAround most = { 0, 0 };
-
-	for(int ny = std::max(y - NeighbourReach, top); ny <= std::min(y + NeighbourReach, bottom); ny++)
-		for(int nx = std::max(x - NeighbourReach, left); nx <= std::min(x + NeighbourReach, right); nx++)
-		{
-			const bool near = (std::abs(nx - x) <= 1) && (std::abs(ny - y) <= 1);
-			Uncertainty& m = near ? most.near : most.far;
-			if((nx != x) || (ny != y))
-				m = std::max(m, of(nx, ny));
-		}
-	return most;
 }
 
 /// Whether a pixel with this variance per sample has enough at a level.
@@ -217,10 +122,11 @@ inline size_t LevelFor(const std::vector<SampleLevel>& levels, double variance)
 const double ShareOfNear = 0.5, ShareOfFar = 0.125;
 
 /// Index of the level to which a pixel is sampled at least, not below `own_level`, at which it would stop by itself.
-inline size_t NeighbourhoodLevel(const std::vector<SampleLevel>& levels, size_t own_level, const MostAround& around)
+/// `most_near`, `most_far`: the most uncertain of the pixels around it, as Neighbourhoods finds them.
+inline size_t NeighbourhoodLevel(const std::vector<SampleLevel>& levels, size_t own_level, Uncertainty most_near, Uncertainty most_far)
 {
-	const double near = ShareOfNear * levels[LevelFor(levels, FromUncertainty(around.near))].samples;
-	const double far = ShareOfFar * levels[LevelFor(levels, FromUncertainty(around.far))].samples;
+	const double near = ShareOfNear * levels[LevelFor(levels, FromUncertainty(most_near))].samples;
+	const double far = ShareOfFar * levels[LevelFor(levels, FromUncertainty(most_far))].samples;
 	size_t level = own_level;
 	while((level + 1 < levels.size()) && (levels[level].samples < std::max(near, far)))
 		level++;

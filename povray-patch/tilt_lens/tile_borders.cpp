@@ -57,14 +57,21 @@ void TileBorders::NoteFirst(int left, int right, int y, int channels, const floa
 	std::copy(means, means + (right - left + 1) * channels, firstMeans.begin() + (size_t(y) * pictureWidth + left) * channels);
 }
 
-bool TileBorders::Take(TilePixel& pixel)
+void TileBorders::Take(std::vector<TilePixel>& pixels)
 {
-	const Pixels::iterator found = begun->find(std::make_pair(pixel.y, pixel.x));
-	if(found == begun->end())
-		return false;
-	pixel = found->second;
-	begun->erase(found);
-	return true;
+	Pixels::iterator kept = begun->end();
+	for(size_t i = 0; i < pixels.size(); i++)
+	{
+		const std::pair<int, int> place(pixels[i].y, pixels[i].x);
+		if((i == 0) || (pixels[i - 1].y != pixels[i].y))
+			kept = begun->lower_bound(place);
+		while((kept != begun->end()) && (kept->first < place))
+			++kept;
+		if((kept == begun->end()) || (kept->first != place))
+			continue;
+		pixels[i] = kept->second;
+		kept = begun->erase(kept);
+	}
 }
 
 void TileBorders::Note(int x, int y, Uncertainty uncertainty)
@@ -72,11 +79,21 @@ void TileBorders::Note(int x, int y, Uncertainty uncertainty)
 	noted[size_t(y) * pictureWidth + x] = uncertainty;
 }
 
-void TileBorders::Keep(const TilePixel& pixel)
+void TileBorders::Keep(const std::vector<TilePixel>& pixels)
 {
-	const std::pair<Pixels::iterator, bool> kept = begun->insert(std::make_pair(std::make_pair(pixel.y, pixel.x), pixel));
-	if(!kept.second && (kept.first->second.sums.count < pixel.sums.count))
-		kept.first->second = pixel;
+	Pixels::iterator next = begun->begin();
+	for(std::vector<TilePixel>::const_iterator pixel = pixels.begin(); pixel != pixels.end(); ++pixel)
+	{
+		const std::pair<int, int> place(pixel->y, pixel->x);
+		if((pixel == pixels.begin()) || ((pixel - 1)->y != pixel->y))
+			next = begun->lower_bound(place);
+		while((next != begun->end()) && (next->first < place))
+			++next;
+		if((next == begun->end()) || (next->first != place))
+			next = begun->insert(next, std::make_pair(place, *pixel));
+		else if(next->second.sums.count < pixel->sums.count)
+			next->second = *pixel;
+	}
 }
 
 }

@@ -36,8 +36,8 @@ class TileBorders
 		/// The same of the means of pixels' first samples, so many numbers a pixel; the first is NaN where no tile has been yet. After Look.
 		void LookAtFirst(int left, int top, int right, int bottom, int channels, std::vector<float>& means);
 
-		/// Hands over the pixel if another tile has begun it; false if not.
-		bool Take(TilePixel& pixel);
+		/// Hands over those of the pixels, which stand row by row, that another tile has begun.
+		void Take(std::vector<TilePixel>& pixels);
 
 		/// Notes a pixel's uncertainty.
 		void Note(int x, int y, Uncertainty uncertainty);
@@ -45,8 +45,8 @@ class TileBorders
 		/// Notes a row of means as LookAtFirst gives them.
 		void NoteFirst(int left, int right, int y, int channels, const float *means);
 
-		/// Keeps a pixel that belongs to another tile for it; of two the one with more samples.
-		void Keep(const TilePixel& pixel);
+		/// Keeps pixels that belong to other tiles, row by row, for them; of two the one with more samples.
+		void Keep(const std::vector<TilePixel>& pixels);
 
 		/// Held while any of the above is called.
 		boost::mutex mutex;

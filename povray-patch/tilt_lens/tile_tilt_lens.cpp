@@ -3,6 +3,7 @@
 // Adaptive sampling of pixel and lens, a tile at a time.
 
 #include <algorithm>
+#include <cmath>
 
 // frame.h must always be the first POV file included (pulls in platform config)
 #include "backend/frame.h"
@@ -13,6 +14,7 @@
 #include "backend/tilt_lens/sample_sums.h"
 #include "backend/tilt_lens/tile_borders.h"
 #include "lens/lens_channels.h"
+#include "lens/neighbourhood.h"
 
 // this must be the last file included
 #include "base/povdebug.h"
@@ -125,10 +127,11 @@ void TracePixel::CompareFirstTiltLensSamples(vector<TilePixel>& tile, vector<Til
 		boost::mutex::scoped_lock lock(borders.mutex);
 		borders.LookAtFirst(l, t, r, b, channels, means);
 	}
+	const auto index = [&](int x, int y) { return size_t(y - t) * columns + (x - l); };
 	const auto look = [&](TilePixel& pixel)
 	{
-		float *const mean = &means[(size_t(pixel.y - t) * columns + (pixel.x - l)) * channels];
-		if(mean[0] == mean[0])
+		float *const mean = &means[index(pixel.x, pixel.y) * channels];
+		if(!std::isnan(mean[0]))
 			return;
 		SampleTiltLensPixel(pixel, samples, width, height);
 		const Colour colour = pixel.sums.Mean();
@@ -139,7 +142,7 @@ void TracePixel::CompareFirstTiltLensSamples(vector<TilePixel>& tile, vector<Til
 	std::for_each(apron.begin(), apron.end(), look);
 	for(int y = t; y <= b; y++)
 		for(int x = l; x <= r; x++)
-			if(means[(size_t(y - t) * columns + (x - l)) * channels] != means[(size_t(y - t) * columns + (x - l)) * channels])
+			if(std::isnan(means[index(x, y) * channels]))
 			{
 				ring.push_back(TilePixel(x, y, camera.Tilt_Lens.Seed()));
 				look(ring.back());
@@ -148,16 +151,12 @@ void TracePixel::CompareFirstTiltLensSamples(vector<TilePixel>& tile, vector<Til
 	{
 		boost::mutex::scoped_lock lock(borders.mutex);
 		for(int y = t; y <= b; y++)
-			borders.NoteFirst(l, r, y, channels, &means[size_t(y - t) * columns * channels]);
-		for(vector<TilePixel>::const_iterator pixel = ring.begin(); pixel != ring.end(); pixel++)
-			borders.Keep(*pixel);
+			borders.NoteFirst(l, r, y, channels, &means[index(l, y) * channels]);
+		borders.Keep(ring);
 	}
 
-	const FirstMeans first = { &means[0], l, t, columns, channels };
-	const auto compare = [&](TilePixel& pixel)
-	{
-		pixel.sums.between = BetweenNeighbours(first, samples, pixel.x, pixel.y, 0, 0, width - 1, height - 1);
-	};
+	const vector<Between> between = BetweenNeighbours(means, columns, b - t + 1, channels, samples);
+	const auto compare = [&](TilePixel& pixel) { pixel.sums.between = between[index(pixel.x, pixel.y)]; };
 	std::for_each(tile.begin(), tile.end(), compare);
 	std::for_each(apron.begin(), apron.end(), compare);
 }
@@ -180,17 +179,15 @@ void TracePixel::ConvergeTiltLensTile(vector<TilePixel>& tile, int left, int top
 	{
 		boost::mutex::scoped_lock lock(borders.mutex);
 		borders.Look(l, t, r, b, width, height, uncertainty);
-		for(vector<TilePixel>::iterator pixel = tile.begin(); pixel != tile.end(); pixel++)
-			borders.Take(*pixel);
+		borders.Take(tile);
 		for(int y = t; y <= b; y++)
 			for(int x = l; x <= r; x++)
 			{
 				const bool in_tile = (x >= left) && (x <= right) && (y >= top) && (y <= bottom);
-				if(in_tile || (uncertainty[(y - t) * columns + (x - l)] != UnknownUncertainty))
-					continue;
-				apron.push_back(TilePixel(x, y, lens.Seed()));
-				borders.Take(apron.back());
+				if(!in_tile && (uncertainty[(y - t) * columns + (x - l)] == UnknownUncertainty))
+					apron.push_back(TilePixel(x, y, lens.Seed()));
 			}
+		borders.Take(apron);
 	}
 
 	if(lens.levels.front().samples < LeastOwnVariance)
@@ -208,15 +205,15 @@ void TracePixel::ConvergeTiltLensTile(vector<TilePixel>& tile, int left, int top
 		for(int y = t; y <= b; y++)
 			for(int x = l; x <= r; x++)
 				borders.Note(x, y, uncertainty[(y - t) * columns + (x - l)]);
-		for(vector<TilePixel>::const_iterator pixel = apron.begin(); pixel != apron.end(); pixel++)
-			borders.Keep(*pixel);
+		borders.Keep(apron);
 	}
 
-	const UncertaintyMap map = { &uncertainty[0], l, t, columns };
+	const Neighbourhoods around(uncertainty, columns, b - t + 1);
 	for(vector<TilePixel>::iterator pixel = tile.begin(); pixel != tile.end(); pixel++)
 	{
-		pixel->neighbourhood_variance = NeighbourhoodVariance(map, pixel->x, pixel->y, 0, 0, width - 1, height - 1);
-		pixel->level = NeighbourhoodLevel(lens.levels, pixel->level, MostUncertainAround(map, pixel->x, pixel->y, 0, 0, width - 1, height - 1));
+		const size_t i = (pixel->y - t) * columns + (pixel->x - l);
+		pixel->neighbourhood_variance = around.variance[i];
+		pixel->level = NeighbourhoodLevel(lens.levels, pixel->level, around.near[i], around.far[i]);
 	}
 }
 

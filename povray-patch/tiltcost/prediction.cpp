@@ -115,17 +115,12 @@ bool Pilot::IsInside(const Block& block, int x, int y, int reach)
 /// transparency, whose edges a render sees too.
 std::vector<tilt_lens::Between> Pilot::CompareFirst(const Block& block, int samples) const
 {
-	std::vector<tilt_lens::Between> between(block.pixels.size());
 	if (samples >= tilt_lens::LeastOwnVariance)
-		return between;
+		return std::vector<tilt_lens::Between>(block.pixels.size());
 	std::vector<float> means;
 	for (const Pixel& pixel : block.pixels)
 		means.insert(means.end(), std::begin(pixel.levels[Known(samples)].mean), std::end(pixel.levels[Known(samples)].mean));
-	const tilt_lens::FirstMeans first = {means.data(), 0, 0, block.width, 3};
-	for (int y = 0; y < block.height; ++y)
-		for (int x = 0; x < block.width; ++x)
-			between[size_t(y * block.width + x)] = tilt_lens::BetweenNeighbours(first, samples, x, y, 0, 0, block.width - 1, block.height - 1);
-	return between;
+	return tilt_lens::BetweenNeighbours(means, block.width, block.height, 3, samples);
 }
 
 /// The level that each pixel of a block goes on to, as if the block were the picture.
@@ -154,14 +149,12 @@ std::vector<size_t> Pilot::LevelsOf(const Block& block, const std::vector<Sample
 		Converge(i);
 		uncertainty.push_back(tilt_lens::ToUncertainty(Variance(i)));
 	}
-	const tilt_lens::UncertaintyMap map = {uncertainty.data(), 0, 0, block.width};
-	for (int y = 0; y < block.height; ++y)
-		for (int x = 0; x < block.width; ++x)
-		{
-			const size_t i = size_t(y * block.width + x);
-			chosen[i] = NeighbourhoodLevel(levels, chosen[i], MostUncertainAround(map, x, y, 0, 0, block.width - 1, block.height - 1));
-			Converge(i);
-		}
+	const tilt_lens::Neighbourhoods around(uncertainty, block.width, block.height);
+	for (size_t i = 0; i < block.pixels.size(); ++i)
+	{
+		chosen[i] = NeighbourhoodLevel(levels, chosen[i], around.near[i], around.far[i]);
+		Converge(i);
+	}
 	return chosen;
 }
 

@@ -16,6 +16,7 @@
 
 #include "lens/adaptive.h"
 #include "lens/convergence.h"
+#include "lens/neighbourhood.h"
 
 #include <string>
 #include <vector>

@@ -3,7 +3,9 @@
 // When a pixel has enough, and what error is left: against definitions, independent
 // samples, and power laws whose answer is known.
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <random>
 #include <set>
 #include <vector>
@@ -12,6 +14,7 @@
 
 #include "lens/adaptive.h"
 #include "lens/convergence.h"
+#include "lens/neighbourhood.h"
 #include "lens/pilot.h"
 
 using namespace tilt_lens;
@@ -72,19 +75,48 @@ TEST(BetweenNeighbours, IsTheVarianceOfASampleWhereThePictureIsFlat)
 		std::vector<float> means(side * side * channels);
 		for(float& m : means)
 			m = mean(random);
-		const FirstMeans first = { means.data(), 0, 0, side, channels };
 		double sum = 0.0;
-		for(int y = 0; y < side; y++)
-			for(int x = 0; x < side; x++)
-			{
-				const Between between = BetweenNeighbours(first, samples, x, y, 0, 0, side - 1, side - 1);
-				sum += between.mean;
-				EXPECT_GE(between.most, between.mean);
-				EXPECT_TRUE(between.known);
-			}
+		for(const Between& between : BetweenNeighbours(means, side, side, channels, samples))
+		{
+			sum += between.mean;
+			EXPECT_GE(between.most, between.mean);
+			EXPECT_TRUE(between.known);
+		}
 		// 30,000 normal numbers: their variance is known to sqrt(2 / 30,000) = 0.8 %, five of which are 4 %; each counts in nine pixels, which does not add any.
 		EXPECT_NEAR(sum / (side * side), 0.01, 0.0004) << samples;
 	}
+}
+
+// Each pixel with each of its eight neighbours, one after the other.
+TEST(BetweenNeighbours, IsWhatPairsSay)
+{
+	const int columns = 7, rows = 5, channels = 4, samples = 2;
+	std::mt19937 random(4);
+	std::uniform_real_distribution<float> mean(0.0f, 1.0f);
+	std::vector<float> means(columns * rows * channels);
+	for(float& m : means)
+		m = mean(random);
+	const std::vector<Between> found = BetweenNeighbours(means, columns, rows, channels, samples);
+	for(int y = 0; y < rows; y++)
+		for(int x = 0; x < columns; x++)
+		{
+			double most = 0.0, sum = 0.0;
+			int count = 0;
+			for(int other = 0; other < columns * rows; other++)
+			{
+				const int away = std::max(std::abs(other % columns - x), std::abs(other / columns - y));
+				count += away == 1;
+				for(int c = 0; (away == 1) && (c < channels); c++)
+				{
+					const double d = double(means[(y * columns + x) * channels + c]) - means[other * channels + c], v = d * d / 2.0 * samples;
+					most = std::max(most, v);
+					sum += c < 3 ? v / 3.0 : 0.0;
+				}
+			}
+			// A difference in single precision is off by 2^-24, its square by twice that, of 1 at most, and the sum by eight of these.
+			EXPECT_NEAR(found[size_t(y * columns + x)].most, most, 1e-6) << x << " " << y;
+			EXPECT_NEAR(found[size_t(y * columns + x)].mean, sum / count, 1e-6) << x << " " << y;
+		}
 }
 
 // An edge is seen from both sides, in any channel; what lies beyond the picture is not.
@@ -97,17 +129,16 @@ TEST(BetweenNeighbours, SeesAnEdgeFromBothSides)
 		for(int i = 0; i < side * side; i++)
 			if(i % side >= 3)
 				means[size_t(i * channels + channel)] = 0.75f;
-		const FirstMeans first = { means.data(), 10, 20, side, channels };
-		const auto at = [&](int x, int left, int right) { return BetweenNeighbours(first, 2, 10 + x, 22, 10 + left, 20, 10 + right, 25); };
-		EXPECT_EQ(at(1, 0, 5).most, 0.0);
-		EXPECT_DOUBLE_EQ(at(2, 0, 5).most, 0.25) << "0.5^2 / 2 of a mean of two";
-		EXPECT_DOUBLE_EQ(at(3, 0, 5).most, 0.25);
-		EXPECT_EQ(at(4, 0, 5).most, 0.0);
-		EXPECT_EQ(at(2, 0, 2).most, 0.0) << "the picture ends before the edge";
+		const std::vector<Between> found = BetweenNeighbours(means, side, side, channels, 2);
+		const auto at = [&](int x) { return found[size_t(2 * side + x)]; };
+		EXPECT_EQ(at(1).most, 0.0);
+		EXPECT_DOUBLE_EQ(at(2).most, 0.25) << "0.5^2 / 2 of a mean of two";
+		EXPECT_DOUBLE_EQ(at(3).most, 0.25);
+		EXPECT_EQ(at(4).most, 0.0);
 		// Three of eight neighbours, one of the three colours; transparency is no light.
-		EXPECT_NEAR(at(2, 0, 5).mean, channel < 3 ? 0.25 * 3 / 8 / 3 : 0.0, 1e-12);
+		EXPECT_NEAR(at(2).mean, channel < 3 ? 0.25 * 3 / 8 / 3 : 0.0, 1e-12);
 	}
-	EXPECT_EQ(BetweenNeighbours(FirstMeans{ std::vector<float>(5, 1.0f).data(), 0, 0, 1, 5 }, 1, 0, 0, 0, 0, 0, 0).most, 0.0) << "a picture of one pixel";
+	EXPECT_EQ(BetweenNeighbours(std::vector<float>(5, 1.0f), 1, 1, 5, 1)[0].most, 0.0) << "a picture of one pixel";
 }
 
 TEST(BetweenNeighbours, JudgeWhatIsTooLittleToJudgeItself)
@@ -125,32 +156,35 @@ TEST(Neighbourhood, ReachesTwoPixels)
 {
 	std::vector<Uncertainty> u(11 * 11, 0);
 	u[5 * 11 + 5] = ToUncertainty(1.0);
-	const UncertaintyMap map = { u.data(), 0, 0, 11 };
-	const auto at = [&](int x, int y) { return NeighbourhoodVariance(map, x, y, 0, 0, 10, 10); };
+	const Neighbourhoods one(u, 11, 11);
+	const auto at = [&](int x, int y) { return one.variance[size_t(y * 11 + x)]; };
 	EXPECT_NEAR(at(5, 5), 0.5 * (1.0 / 9 + 1.0 / 25), 0.01);
 	EXPECT_NEAR(at(4, 6), at(5, 5), 1e-15);
 	EXPECT_NEAR(at(3, 5), 0.5 / 25, 0.002);
 	EXPECT_EQ(at(2, 5), 0.0);
-	// In a corner fewer vote.
+	// In a corner and at an edge fewer vote.
 	u.assign(u.size(), ToUncertainty(1.0));
-	EXPECT_NEAR(at(0, 0), FromUncertainty(u[0]), 1e-12);
+	for(const double v : Neighbourhoods(u, 11, 11).variance)
+		EXPECT_NEAR(v, FromUncertainty(u[0]), 1e-12);
 }
 
-// The eight around a pixel, and the sixteen around these; never itself, nor what is beyond the picture.
+// Of nine pixels and of twenty-five; not what is beyond the rectangle.
 TEST(Neighbourhood, TheMostUncertainAround)
 {
 	std::vector<Uncertainty> u(11 * 11, 3);
 	u[5 * 11 + 5] = 90;
-	const UncertaintyMap map = { u.data(), 0, 0, 11 };
-	const auto at = [&](int x, int y) { return MostUncertainAround(map, x, y, 0, 0, 10, 10); };
-	EXPECT_EQ(at(5, 5).near, 3);
-	EXPECT_EQ(at(5, 5).far, 3);
-	EXPECT_EQ(at(4, 6).near, 90);
-	EXPECT_EQ(at(4, 6).far, 3);
-	EXPECT_EQ(at(7, 4).near, 3);
-	EXPECT_EQ(at(7, 4).far, 90);
-	EXPECT_EQ(at(8, 5).far, 3);
-	EXPECT_EQ(MostUncertainAround(map, 5, 5, 5, 5, 5, 5).near, 0) << "a picture of one pixel";
+	const Neighbourhoods around(u, 11, 11);
+	for(int y = 0; y < 11; y++)
+		for(int x = 0; x < 11; x++)
+		{
+			const int away = std::max(std::abs(x - 5), std::abs(y - 5));
+			EXPECT_EQ(around.near[size_t(y * 11 + x)], away <= 1 ? 90 : 3) << x << " " << y;
+			EXPECT_EQ(around.far[size_t(y * 11 + x)], away <= 2 ? 90 : 3) << x << " " << y;
+		}
+	const Neighbourhoods alone({ 7 }, 1, 1), two({ 7, 9 }, 2, 1);
+	EXPECT_EQ(alone.far[0], 7) << "a picture of one pixel";
+	EXPECT_EQ(two.near[0], 9);
+	EXPECT_EQ(two.far[1], 9);
 }
 
 TEST(Neighbourhood, APixelIsSampledHalfAsOftenAsItsNeighbourWantsAndNeverLessThanByItself)
@@ -163,7 +197,7 @@ TEST(Neighbourhood, APixelIsSampledHalfAsOftenAsItsNeighbourWantsAndNeverLessTha
 	EXPECT_EQ(LevelFor(levels, 1.0), 4u);
 	EXPECT_EQ(LevelFor(levels, HUGE_VAL), 4u);
 	const auto wants = [](double variance) { return ToUncertainty(variance); };
-	const auto level = [&](size_t own, Uncertainty near, Uncertainty far) { return NeighbourhoodLevel(levels, own, MostAround{ near, far }); };
+	const auto level = [&](size_t own, Uncertainty near, Uncertainty far) { return NeighbourhoodLevel(levels, own, near, far); };
 	EXPECT_EQ(level(0, 0, 0), 0u);
 	EXPECT_EQ(level(2, 0, 0), 2u);
 	EXPECT_EQ(level(0, wants(1.0), 0), 3u) << "128 of 256";
@@ -172,7 +206,21 @@ TEST(Neighbourhood, APixelIsSampledHalfAsOftenAsItsNeighbourWantsAndNeverLessTha
 	EXPECT_EQ(level(0, wants(0.001), 0), 0u) << "the neighbour stops at 32";
 	// blur_samples 16, 100: the last level is no power of two.
 	const auto odd = SampleLevels(16, 100, 1e-4, 0.9, Half);
-	EXPECT_EQ(NeighbourhoodLevel(odd, 0, MostAround{ wants(1.0), 0 }), 2u) << "50 of 100: 64";
+	EXPECT_EQ(NeighbourhoodLevel(odd, 0, wants(1.0), 0), 2u) << "50 of 100: 64";
+}
+
+// The nine and twenty-five pixels hold the pixel itself, which may not ask itself for more. A byte holds a variance within 2^(1/8), and from
+// one level to the next what stops there doubles at least.
+TEST(Neighbourhood, APixelDoesNotAskItselfForMore)
+{
+	for(int first : { 1, 2, 3, 4, 16 })
+		for(int last : { 16, 17, 100, 256 })
+		{
+			const auto levels = SampleLevels(first, last, 1e-4, 0.9, Half);
+			for(double variance = 1e-6; variance < 1.0; variance *= 1.03)
+				for(size_t own = LevelFor(levels, variance); own < levels.size(); own++)
+					EXPECT_EQ(NeighbourhoodLevel(levels, own, ToUncertainty(variance), ToUncertainty(variance)), own) << first << " " << last << " " << variance;
+		}
 }
 
 // v(n) = c n^-a: the squared changes are c n^-a (2^a - 1) 2^(aj).
