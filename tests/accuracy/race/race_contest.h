@@ -26,6 +26,8 @@ struct Contest
 
 	std::string Name() const { return scene.name + (tilted ? "-tilted" : ""); }
 	std::string Title() const { return scene.title + (scene.tilted ? tilted ? ", tilted" : ", not tilted" : ""); }
+	// Whether the truth is known well enough for times to an RMS error: its own, squared, is a quarter of that at most.
+	bool Tells(double error) const { return truth_error <= 0.5 * error; }
 	Opponent Rival() const { return tilted ? Opponent::PINHOLES : Opponent::STOCK; }
 	// OURS is the best of all settings, fixed ones too, as STOCK is.
 	std::vector<CurvePoint> RmsHull(Opponent opponent) const;

@@ -43,19 +43,27 @@ Lever Worth(const RaceReport& report, const char* title, const Chosen& without, 
 	lever.title = title;
 	const std::vector<double>& errors = report.settings.errors;
 	lever.at.assign(errors.size(), 0.0);
+	std::vector<int> told(errors.size(), 0);
 	for (const Contest& contest : report.contests)
 	{
 		const std::vector<CurvePoint> slow = HullWhere(contest, without), fast = HullWhere(contest, with);
 		if (slow.empty() || fast.empty())
 			continue;
 		double sum = 0;
+		int count = 0;
 		for (std::size_t i = 0; i < errors.size(); ++i)
 		{
+			if (!contest.Tells(errors[i]))
+				continue;
 			const double gain = std::log(TimeToReach(slow, errors[i], true).time / TimeToReach(fast, errors[i], false).time);
 			lever.at[i] += gain;
+			++told[i];
 			sum += gain;
+			++count;
 		}
-		const double gain = std::exp(sum / double(errors.size()));
+		if (count == 0)
+			continue;
+		const double gain = std::exp(sum / count);
 		if (lever.contests == 0 || gain < lever.least)
 		{
 			lever.least = gain;
@@ -69,12 +77,14 @@ Lever Worth(const RaceReport& report, const char* title, const Chosen& without, 
 		++lever.contests;
 	}
 	double sum = 0;
-	for (double& gain : lever.at)
+	int count = 0;
+	for (std::size_t i = 0; i < errors.size(); ++i)
 	{
-		sum += gain;
-		gain = std::exp(gain / std::max(1, lever.contests));
+		sum += lever.at[i];
+		count += told[i];
+		lever.at[i] = std::exp(lever.at[i] / std::max(1, told[i]));
 	}
-	lever.mean = std::exp(sum / double(errors.size()) / std::max(1, lever.contests));
+	lever.mean = std::exp(sum / std::max(1, count));
 	return lever;
 }
 

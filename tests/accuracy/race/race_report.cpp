@@ -66,6 +66,9 @@ std::string Cell(const Ratio& ratio)
 	return fmt::format("<td{}>{}{:.2f}</td>", ratio.value < 1 ? " class=\"lost\"" : "", html, ratio.value);
 }
 
+// Of a truth that is not known well enough.
+const std::string NOT_TOLD = "<td>–</td>";
+
 // Against our own without denoise, ours is denoised; against all others it runs twice.
 std::vector<Side> SidesAgainst(Opponent rival)
 {
@@ -83,24 +86,32 @@ std::string Summary(const RaceReport& report, Opponent rival, const char* title)
 	const std::vector<double>& errors = report.settings.errors;
 	std::string rows;
 	std::vector<double> least(sides.size(), 1e9), log_sum(errors.size() * sides.size(), 0.0);
+	std::vector<int> told(log_sum.size(), 0);
 	int count = 0;
 	for (const Contest& contest : report.contests)
 	{
 		if (contest.points.find(rival) == contest.points.end())
 			continue;
+		const auto of_it = std::count_if(errors.begin(), errors.end(), [&](double error) { return contest.Tells(error); });
 		rows += fmt::format("<tr><td><a href=\"#{}\">{}</a></td>", contest.Name(), contest.Title());
 		std::vector<double> sum(sides.size(), 0.0);
 		for (std::size_t i = 0; i < log_sum.size(); ++i)
 		{
 			const std::size_t s = i % sides.size();
+			if (!contest.Tells(errors[i / sides.size()]))
+			{
+				rows += NOT_TOLD;
+				continue;
+			}
 			const Ratio ratio = RatioAt(contest, rival, errors[i / sides.size()], sides[s]);
 			rows += Cell(ratio);
 			sum[s] += std::log(ratio.value);
 			log_sum[i] += std::log(ratio.value);
+			++told[i];
 			least[s] = std::min(least[s], ratio.value);
 		}
 		for (const double of_side : sum)
-			rows += fmt::format("<td><b>{:.2f}</b></td>", std::exp(of_side / double(errors.size())));
+			rows += of_it > 0 ? fmt::format("<td><b>{:.2f}</b></td>", std::exp(of_side / double(of_it))) : NOT_TOLD;
 		rows += "</tr>\n";
 		++count;
 	}
@@ -113,14 +124,15 @@ std::string Summary(const RaceReport& report, Opponent rival, const char* title)
 	for (std::size_t i = 0; i < log_sum.size() + sides.size(); ++i)
 		text += fmt::format("<th>{}</th>", rival == Opponent::RAW ? "denoised" : Heading(sides[i % sides.size()]));
 	text += "</tr>\n" + rows + "<tr><th>geometric mean</th>";
-	for (const double sum : log_sum)
-		text += fmt::format("<th>{:.2f}</th>", std::exp(sum / count));
+	for (std::size_t i = 0; i < log_sum.size(); ++i)
+		text += told[i] > 0 ? fmt::format("<th>{:.2f}</th>", std::exp(log_sum[i] / told[i])) : NOT_TOLD;
 	for (std::size_t s = 0; s < sides.size(); ++s)
 	{
 		means += fmt::format("<th class=\"big\">{:.2f}</th>", GeometricMean(report, rival, sides[s]));
 		leasts += fmt::format("{}{:.2f} ({})", s > 0 ? ", " : "", least[s], rival == Opponent::RAW ? "denoised" : Heading(sides[s]));
 	}
-	return text + means + "</tr></table>\n<p>Least: " + leasts + ".</p>\n";
+	const bool all_told = std::all_of(told.begin(), told.end(), [count](int n) { return n == count; });
+	return text + means + "</tr></table>\n<p>Least: " + leasts + (all_told ? "" : ". –: less than twice the error that the truth itself may have") + ".</p>\n";
 }
 
 Ratio Paid(const Contest& contest, Ratio ratio)
@@ -141,7 +153,7 @@ std::string Ratios(const Contest& contest, const RaceSettings& settings)
 		const auto cell = [&](const Ratio& ratio) { return Cell(paid ? Paid(contest, ratio) : ratio); };
 		text += "<tr><td>" + name + "</td>";
 		for (double error : settings.errors)
-			text += cell(RatioAt(contest, opponent, error, side));
+			text += contest.Tells(error) ? cell(RatioAt(contest, opponent, error, side)) : NOT_TOLD;
 		for (double error : settings.rel_mse)
 			text += cell(RelMseRatioAt(contest, opponent, error, side));
 		text += "</tr>\n";

@@ -50,6 +50,8 @@ void WriteTables(const RaceReport& report, const fs::path& out)
 		{
 			for (double error : report.settings.errors)
 			{
+				if (!contest.Tells(error))
+					continue;
 				ratios << fmt::format("{},{},rms,{:g},{}\n", contest.Name(), Name(opponent), error,
 					Both(RatioAt(contest, opponent, error, Side::RAW), RatioAt(contest, opponent, error, Side::BEST), opponent));
 			}
@@ -74,10 +76,11 @@ double GeometricMean(const RaceReport& report, Opponent rival, Side side)
 		if (contest.points.find(rival) == contest.points.end())
 			continue;
 		for (double error : report.settings.errors)
-		{
-			sum += std::log(RatioAt(contest, rival, error, side).value);
-			++count;
-		}
+			if (contest.Tells(error))
+			{
+				sum += std::log(RatioAt(contest, rival, error, side).value);
+				++count;
+			}
 	}
 	return count > 0 ? std::exp(sum / count) : 0;
 }
@@ -94,6 +97,8 @@ std::string RatiosInWords(const RaceReport& report)
 		for (double error : report.settings.errors)
 		{
 			const auto one = [&](Side side) {
+				if (!contest.Tells(error))
+					return std::string("-");
 				const Ratio ratio = RatioAt(contest, contest.Rival(), error, side);
 				return fmt::format("{}{:.2f}", Sign(ratio), ratio.value);
 			};
@@ -119,6 +124,8 @@ std::string WhereWeLose(const RaceReport& report, Side side)
 			if (contest.points.find(rival) != contest.points.end())
 				for (double error : report.settings.errors)
 				{
+					if (!contest.Tells(error))
+						continue;
 					const Ratio ratio = RatioAt(contest, rival, error, side);
 					cells.push_back({fmt::format("{} at {:g} ({}{:.2f})", contest.Title(), error, Sign(ratio), ratio.value), ratio.value});
 				}

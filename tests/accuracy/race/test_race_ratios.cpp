@@ -76,6 +76,22 @@ TEST(RaceRatios, MeansAreOfASide)
 	EXPECT_NE(WhereWeLose(report, Side::RAW), WhereWeLose(report, Side::BEST));
 }
 
+// Times to errors that are less than twice the truth's own say nothing: they are in no mean and no table.
+TEST(RaceRatios, WhatTheTruthCannotTellIsLeftOut)
+{
+	RaceReport report;
+	report.settings.errors = {0.01, 0.005};
+	report.contests = {Made(2, 4, 6), Made(3, 12, 24)};
+	report.contests[1].truth_error = 0.004;
+	EXPECT_TRUE(report.contests[1].Tells(0.01));
+	EXPECT_FALSE(report.contests[1].Tells(0.005));
+	// 6 at both errors, 4 at the first.
+	EXPECT_NEAR(GeometricMean(report, Opponent::STOCK, Side::BEST), std::cbrt(6.0 * 6.0 * 4.0), 1e-9);
+	EXPECT_NE(RatiosInWords(report).find("- /     -"), std::string::npos) << RatiosInWords(report);
+	report.contests[1].truth_error = 0.02;
+	EXPECT_NEAR(GeometricMean(report, Opponent::STOCK, Side::BEST), 6, 1e-9);
+}
+
 TEST(RaceRatios, ALeverIsWorthWhatItSavesAlone)
 {
 	RaceReport report;
