@@ -11,7 +11,7 @@
 stock=$1 ours=$2 distribution=$3 work=$4
 here=$(cd "$(dirname "$0")" && pwd)
 MINIMUM=150
-LIMIT=5 # seconds that stock may take
+LIMIT=2 # seconds of a processor that stock may take
 PROCESSES=8 # POV-Ray sleeps most of a short render
 TYPES="perspective orthographic fisheye ultra_wide_angle omnimax panoramic spherical cylinder mesh_camera"
 
