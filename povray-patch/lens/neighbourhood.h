@@ -28,7 +28,7 @@ inline std::vector<Between> BetweenNeighbours(const std::vector<float>& means, i
 	// Each pair once, and rows of pairs, which compilers turn into vectors.
 	const auto note = [&](size_t pixel, size_t count)
 	{
-		float *const m = &most[pixel], *const s = &sum[pixel];
+		float *const m = most.data() + pixel, *const s = sum.data() + pixel;
 		for(size_t i = 0; i < count; i++)
 		{
 			m[i] = std::max(m[i], square[i]);
