@@ -84,7 +84,13 @@ std::string Complaint(const fs::path& file)
 	for (std::string line; std::getline(in, line);)
 	{
 		if (line.compare(0, error.size(), error) == 0)
-			return line.substr(error.size());
+		{
+			said = line.substr(error.size());
+			// What it quotes stands on the next line.
+			if (std::getline(in, line) && line.find_first_not_of(" \t\r") != std::string::npos)
+				said += " " + line.substr(line.find_first_not_of(" \t\r"));
+			return said;
+		}
 		if (line.find_first_not_of(" \t\r") != std::string::npos)
 			said = line;
 	}
