@@ -16,6 +16,9 @@
 namespace tilt_lens
 {
 
+/// How many of `size` places in a row are no farther than `reach` from place i.
+inline int Within(int i, int size, int reach) { return std::min(i, reach) + 1 + std::min(size - 1 - i, reach); }
+
 /// Compares the means of the first `samples` of each pixel with those of the eight around it. `means` are `channels` (three or more,
 /// red, green and blue first) a pixel, row by row; pixels beyond the rectangle do not count, so that it must reach a pixel farther than
 /// what is asked for, where the picture does.
@@ -60,9 +63,8 @@ inline std::vector<Between> BetweenNeighbours(const std::vector<float>& means, i
 		{
 			const size_t pixel = size_t(y) * columns + x;
 			const float *const m = &most[pixel * channels], *const s = &sum[pixel * channels];
-			const int wide = 1 + (x > 0) + (x + 1 < columns), high = 1 + (y > 0) + (y + 1 < rows);
 			between[pixel].most = half * *std::max_element(m, m + channels);
-			between[pixel].mean = half * (double(s[0]) + s[1] + s[2]) / (3.0 * std::max(wide * high - 1, 1));
+			between[pixel].mean = half * (double(s[0]) + s[1] + s[2]) / (3.0 * std::max(Within(x, columns, 1) * Within(y, rows, 1) - 1, 1));
 			between[pixel].known = true;
 		}
 	return between;
@@ -128,13 +130,12 @@ struct Neighbourhoods
 		std::transform(of.begin(), of.end(), own.begin(), FromUncertainty);
 		variance = OverSquares(own, columns, rows, 1, std::plus<double>());
 		const std::vector<double> wide = OverSquares(own, columns, rows, NeighbourReach, std::plus<double>());
-		const auto within = [](int i, int size, int reach) { return std::min(i, reach) + 1 + std::min(size - 1 - i, reach); };
 		for(int y = 0; y < rows; y++)
 			for(int x = 0; x < columns; x++)
 			{
 				double& v = variance[size_t(y) * columns + x];
-				v = 0.5 * (v / (within(x, columns, 1) * within(y, rows, 1)) +
-				           wide[size_t(y) * columns + x] / (within(x, columns, NeighbourReach) * within(y, rows, NeighbourReach)));
+				v = 0.5 * (v / (Within(x, columns, 1) * Within(y, rows, 1)) +
+				           wide[size_t(y) * columns + x] / (Within(x, columns, NeighbourReach) * Within(y, rows, NeighbourReach)));
 			}
 	}
 };

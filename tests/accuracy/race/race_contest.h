@@ -6,6 +6,7 @@
 #include "race_errors.h"
 #include "race_render.h"
 
+#include <algorithm>
 #include <map>
 #include <string>
 
@@ -28,6 +29,11 @@ struct Contest
 	std::string Title() const { return scene.title + (scene.tilted ? tilted ? ", tilted" : ", not tilted" : ""); }
 	// Whether the truth is known well enough for times to an RMS error: its own, squared, is a quarter of that at most.
 	bool Tells(double error) const { return truth_error <= 0.5 * error; }
+	std::vector<double> Told(std::vector<double> errors) const
+	{
+		errors.erase(std::remove_if(errors.begin(), errors.end(), [this](double error) { return !Tells(error); }), errors.end());
+		return errors;
+	}
 	Opponent Rival() const { return tilted ? Opponent::PINHOLES : Opponent::STOCK; }
 	// OURS is the best of all settings, fixed ones too, as STOCK is.
 	std::vector<CurvePoint> RmsHull(Opponent opponent) const;

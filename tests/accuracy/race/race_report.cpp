@@ -92,7 +92,7 @@ std::string Summary(const RaceReport& report, Opponent rival, const char* title)
 	{
 		if (contest.points.find(rival) == contest.points.end())
 			continue;
-		const auto of_it = std::count_if(errors.begin(), errors.end(), [&](double error) { return contest.Tells(error); });
+		const std::size_t of_it = contest.Told(errors).size();
 		rows += fmt::format("<tr><td><a href=\"#{}\">{}</a></td>", contest.Name(), contest.Title());
 		std::vector<double> sum(sides.size(), 0.0);
 		for (std::size_t i = 0; i < log_sum.size(); ++i)

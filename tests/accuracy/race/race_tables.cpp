@@ -48,10 +48,8 @@ void WriteTables(const RaceReport& report, const fs::path& out)
 					point.worse_blocks < 0 ? "" : fmt::format("{:.4f}", point.worse_blocks));
 		for (Opponent opponent : {contest.Rival(), Opponent::RAW, Opponent::FIXED})
 		{
-			for (double error : report.settings.errors)
+			for (double error : contest.Told(report.settings.errors))
 			{
-				if (!contest.Tells(error))
-					continue;
 				ratios << fmt::format("{},{},rms,{:g},{}\n", contest.Name(), Name(opponent), error,
 					Both(RatioAt(contest, opponent, error, Side::RAW), RatioAt(contest, opponent, error, Side::BEST), opponent));
 			}
@@ -75,12 +73,11 @@ double GeometricMean(const RaceReport& report, Opponent rival, Side side)
 	{
 		if (contest.points.find(rival) == contest.points.end())
 			continue;
-		for (double error : report.settings.errors)
-			if (contest.Tells(error))
-			{
-				sum += std::log(RatioAt(contest, rival, error, side).value);
-				++count;
-			}
+		for (double error : contest.Told(report.settings.errors))
+		{
+			sum += std::log(RatioAt(contest, rival, error, side).value);
+			++count;
+		}
 	}
 	return count > 0 ? std::exp(sum / count) : 0;
 }
@@ -122,10 +119,8 @@ std::string WhereWeLose(const RaceReport& report, Side side)
 		std::vector<Cell> cells;
 		for (const Contest& contest : report.contests)
 			if (contest.points.find(rival) != contest.points.end())
-				for (double error : report.settings.errors)
+				for (double error : contest.Told(report.settings.errors))
 				{
-					if (!contest.Tells(error))
-						continue;
 					const Ratio ratio = RatioAt(contest, rival, error, side);
 					cells.push_back({fmt::format("{} at {:g} ({}{:.2f})", contest.Title(), error, Sign(ratio), ratio.value), ratio.value});
 				}
