@@ -4,6 +4,7 @@
 
 #include "closed_loop_page.h"
 #include "base/files.h"
+#include "lens/optical_vignetting.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -45,6 +46,37 @@ TEST(ClosedLoop, AnErrorWithoutASigmaIsOutside)
 	EXPECT_EQ(c.all, 2);
 	EXPECT_TRUE(std::isinf(c.worst));
 	EXPECT_EQ(c.mean, 5) << "10 and 0";
+}
+
+TEST(ClosedLoop, RimsOfTheThinLensAreTwoDiscs)
+{
+	const double radius = 8, w = 48, distance = 500;
+	const int points = 1200;
+	// A rim's edge meets some 2 sqrt(points / pi) = 40 of the points' cells, and takes each or not: 4 standard deviations of that.
+	const double bound = 4 * 0.5 * std::sqrt(2 * std::sqrt(points / M_PI)) / points;
+	for (const synthetic::Rim& rim : { synthetic::Rim{ 10, 15 }, synthetic::Rim{ 9, -15 } })
+	{
+		synthetic::Scene scene;
+		scene.width = 60;
+		scene.height = 40;
+		scene.w_px = w / 0.6;   // of a sensor of 36 mm
+		scene.aperture = 2 * radius;
+		scene.lens_points = points;
+		scene.w = w;
+		scene.rims = { rim };
+		const cv::Mat picture = synthetic::TakePicture(scene, { [](double, double) { return 1.0f; } });
+		// What the pixel sees is sharp, so that all its rays meet: the lens seen from there, and the rim.
+		const double nearer = 1 - (rim.distance > 0 ? rim.distance / distance : -rim.distance / w);
+		for (int y = 0; y < scene.height; y += 3)
+			for (int x = 0; x < scene.width; x += 3)
+			{
+				const double slope = std::hypot(x - 29.5, y - 19.5) / scene.w_px;
+				const double share = tilt_lens::OverlapOfDiscs(radius * nearer, rim.radius, std::abs(rim.distance) * slope) / (M_PI * std::pow(radius * nearer, 2));
+				// A pixel is 0.6 mm wide: over it the share is nearly a straight line, bent by less than a thousandth.
+				EXPECT_NEAR(picture.at<float>(y, x), share, bound + 1e-3) << x << " " << y << " " << rim.distance;
+			}
+		EXPECT_LT(picture.at<float>(0, 0), 0.9) << "a rim that cuts nothing tests nothing";
+	}
 }
 
 TEST(ClosedLoop, WhatIsNotToldDoesNotCount)

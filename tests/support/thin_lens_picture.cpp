@@ -39,6 +39,19 @@ Eigen::Vector3d LensPoint(const Scene& scene, double radius, double angle)
 	return 0.5 * scene.aperture * radius * (std::cos(angle) * a + std::sin(angle) * b);
 }
 
+/// Whether the rims let the ray through S pass that shows P in the camera's direction `v`.
+bool PassesRims(const Scene& scene, const Eigen::Vector3d& P, const Eigen::Vector3d& S, const Eigen::Vector3d& v)
+{
+	for (const Rim& rim : scene.rims)
+	{
+		const Eigen::Vector3d ray = (rim.distance > 0 ? P : Eigen::Vector3d(-scene.w / v.z() * v)) - S;
+		const Eigen::Vector3d at = S + rim.distance / ray.dot(scene.lens_normal) * ray;
+		if ((at - rim.distance * scene.lens_normal).norm() > rim.radius)
+			return false;
+	}
+	return true;
+}
+
 /// Board mm from pixels through the lens point S.
 cv::Matx33d Homography(const Scene& scene, const Eigen::Vector3d& S)
 {
@@ -114,18 +127,25 @@ Eigen::Vector2d Distorted(const Scene& scene, const Eigen::Vector2d& p)
 const int TURNS = 7;
 const int RIM = 8;   // points of the lens's rim that bound what a pixel sees
 
-/// Mean over the lens and the pixel; where both see one shade only, that shade.
-double LightOfPixel(const Scene& scene, const Pattern& pattern, const std::vector<cv::Matx33d>& inside, const std::vector<cv::Matx33d>& rim, int x, int y)
+/// A point of the lens, mm, and the picture that a pinhole there takes: board mm from pixels.
+struct Pinhole
+{
+	Eigen::Vector3d point;
+	cv::Matx33d board_from_pixel;
+};
+
+/// Mean over the lens and the pixel; where both see one shade only and no rim is near, that shade.
+double LightOfPixel(const Scene& scene, const Pattern& pattern, const std::vector<Pinhole>& inside, const std::vector<cv::Matx33d>& rim, int x, int y)
 {
 	const Eigen::Vector2d middle = Undistorted(scene, { x, y });
 	const Eigen::Vector2d by_x = Undistorted(scene, { x + 1.0, y }) - middle, by_y = Undistorted(scene, { x, y + 1.0 }) - middle;
-	if (pattern.clearance)
+	if (pattern.clearance && scene.rims.empty())
 	{
-		const Eigen::Vector2d seen = Through(inside[0], middle);
+		const Eigen::Vector2d seen = Through(inside[0].board_from_pixel, middle);
 		double reach = 0;
 		for (const cv::Matx33d& H : rim)
 			reach = std::max(reach, (Through(H, middle) - seen).norm());
-		const double pixel = (Through(inside[0], middle + by_x) - seen).norm() + (Through(inside[0], middle + by_y) - seen).norm();
+		const double pixel = (Through(inside[0].board_from_pixel, middle + by_x) - seen).norm() + (Through(inside[0].board_from_pixel, middle + by_y) - seen).norm();
 		// Eight points of an ellipse miss 8 % of its half axis.
 		if (pattern.clearance(seen.x(), seen.y()) > 1.15 * reach + pixel)
 			return pattern.light(seen.x(), seen.y());
@@ -136,8 +156,9 @@ double LightOfPixel(const Scene& scene, const Pattern& pattern, const std::vecto
 	for (size_t k = 0; k < inside.size(); ++k)
 	{
 		const double u = start + double(k) * 0.7548776662466927, v = start * 1.7 + double(k) * 0.5698402909980532;
-		const Eigen::Vector2d at = Through(inside[k], middle + (u - std::floor(u) - 0.5) * by_x + (v - std::floor(v) - 0.5) * by_y);
-		sum += pattern.light(at.x(), at.y());
+		const Eigen::Vector2d p = middle + (u - std::floor(u) - 0.5) * by_x + (v - std::floor(v) - 0.5) * by_y, at = Through(inside[k].board_from_pixel, p);
+		if (scene.rims.empty() || PassesRims(scene, OnBoard(scene, at.x(), at.y()), inside[k].point, DirectionOf(scene, p)))
+			sum += pattern.light(at.x(), at.y());
 	}
 	return sum / double(inside.size());
 }
@@ -187,10 +208,13 @@ cv::Mat TakePicture(const Scene& scene, const Pattern& pattern)
 {
 	// Fermat's spiral covers the disc evenly; turned from pixel to pixel, so that its grain is not the same along an edge.
 	const int n = scene.lens_points;
-	std::vector<std::vector<cv::Matx33d>> inside(TURNS);
+	std::vector<std::vector<Pinhole>> inside(TURNS);
 	for (int turn = 0; turn < TURNS; ++turn)
 		for (int k = 0; k < n; ++k)
-			inside[size_t(turn)].push_back(Homography(scene, LensPoint(scene, std::sqrt((k + 0.5) / n), k * 2.399963229728653 + turn * 2 * M_PI / TURNS)));
+		{
+			const Eigen::Vector3d S = LensPoint(scene, std::sqrt((k + 0.5) / n), k * 2.399963229728653 + turn * 2 * M_PI / TURNS);
+			inside[size_t(turn)].push_back({ S, Homography(scene, S) });
+		}
 	std::vector<cv::Matx33d> rim;
 	for (int k = 0; k < RIM; ++k)
 		rim.push_back(Homography(scene, LensPoint(scene, 1, k * 2 * M_PI / RIM)));
@@ -243,6 +267,7 @@ Eigen::Vector3d LensNormal(double tilt, double direction)
 
 void FocusOn(Scene& scene, double w, double f)
 {
+	scene.w = w;
 	Eigen::Vector3d seen[3];
 	int k = 0;
 	for (const auto& [x, y] : { std::pair{ 0.0, 0.0 }, std::pair{ 10.0, 0.0 }, std::pair{ 0.0, 10.0 } })

@@ -13,9 +13,16 @@
 #include <opencv2/core.hpp>
 
 #include <functional>
+#include <vector>
 
 namespace synthetic
 {
+
+/// A circle about the lens's axis that stops light, mm: a mount, or the edge of another glass. `distance` along the axis, before the lens > 0, behind it < 0.
+struct Rim
+{
+	double radius = 0, distance = 0;
+};
 
 struct Scene
 {
@@ -32,6 +39,8 @@ struct Scene
 	bool eight_bit = false;                   ///< sRGB-coded, rounded and decoded
 	int lens_points = 300;
 	double k1 = 0;                            ///< radial distortion about the lens's axis: distorted = ideal (1 + k1 r^2), in units of the axial distance
+	double w = 0;                             ///< image distance, mm; only rims behind the lens ask for it
+	std::vector<Rim> rims{};
 };
 
 /// Light of the board's plane at (x, y) mm, 0..1.

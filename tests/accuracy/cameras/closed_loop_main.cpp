@@ -23,10 +23,10 @@ struct Options
 	std::vector<std::string> refused;
 	int seeds = 1, poses = 1, random = 0, first = 0;
 	std::string work = "closed-loop", out, glass;
-	double focal_length = 0, f_number = 0, stopped_to = 0;
+	double focal_length = 0, f_number = 0, stopped_to = 0, fill = 0;
 	bool table = false;
 	double hold = 0, most = HUGE_VAL, megapixels = 0;
-	std::vector<double> within;
+	std::vector<double> within, rims;
 
 	std::string Command() const
 	{
@@ -45,6 +45,10 @@ struct Options
 			words += fmt::format(" --f-number {:g}", f_number);
 		if (stopped_to > 0)
 			words += fmt::format(" --stopped-to {:g}", stopped_to);
+		if (fill > 0)
+			words += fmt::format(" --fill {:g}", fill);
+		for (size_t k = 0; k < rims.size(); k += 2)
+			words += fmt::format(" --rim {:g} {:g}", rims[k], rims[k + 1]);
 		if (megapixels > 0)
 			words += fmt::format(" --megapixels {:g}", megapixels);
 		if (poses > 1)
@@ -95,6 +99,10 @@ void Run(const Options& o, Camera camera, unsigned pose_seed, unsigned noise_see
 	if (o.f_number > 0)
 		camera.f_number = o.f_number;
 	camera.stopped_to = o.stopped_to;
+	if (o.fill > 0)
+		camera.fill = o.fill;
+	for (size_t k = 0; k < o.rims.size(); k += 2)
+		camera.rims.push_back({ o.rims[k], o.rims[k + 1] });
 	Negatives negatives;
 	try
 	{
@@ -137,6 +145,8 @@ try
 	app.add_option("--focal-length", o.focal_length, "Of all cameras, mm, in place of their own");
 	app.add_option("--f-number", o.f_number, "Of all cameras, in place of their own");
 	app.add_option("--stopped-to", o.stopped_to, "Every board is photographed at this f-number too, and both sets are calibrated together");
+	app.add_option("--fill", o.fill, "How much of the picture a board fills at the plane of focus (0.85: most are in the picture only beyond it; 0.5: boards reach through it)")->check(CLI::Range(0.1, 1.0));
+	app.add_option("--rim", o.rims, "RADIUS DISTANCE: a rim of the thin lenses, in radii of the opening and focal lengths before the lens (behind it: negative)")->type_size(2)->excludes("--glass");
 	app.add_option("--work", o.work, "Folder for the photographs");
 	app.add_option("--out", o.out, "Page with the results, Markdown");
 	app.add_option("--hold", o.hold, "Exit code 1 when fewer numbers are inside 2 sigma than a true share of so much leaves once in a thousand by chance")->check(CLI::Range(0.0, 1.0));

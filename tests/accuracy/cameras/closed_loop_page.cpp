@@ -211,7 +211,7 @@ MadeUpRims CountMadeUpRims(const std::vector<Result>& results)
 	MadeUpRims count;
 	for (const Result& r : results)
 	{
-		if (!r.answer.refusal.empty() || !r.camera.glass.empty())
+		if (!r.answer.refusal.empty() || !r.camera.glass.empty() || !r.camera.rims.empty())
 			continue;
 		const std::vector<tiltcal::Effect>& effects = r.answer.calibration.effects;
 		++count.sets;
@@ -232,7 +232,7 @@ void WritePage(const std::string& file, const std::string& command, const std::v
 	page += Row("**all**", CoverageOfAll(results));
 	page += "\nThe interval of a share is the binomial one, wider where the numbers of one set hang together.\n";
 	const MadeUpRims rims = CountMadeUpRims(results);
-	page += fmt::format("\nThin lenses have no rims: {} of {} were given one.\n", rims.with, rims.sets);
+	page += fmt::format("\nThin lenses have no rims, unless `--rim` gives them one: {} of {} without were given one.\n", rims.with, rims.sets);
 	page += RefusalsInWords(results, expected_refusals);
 	page += "\n| camera | light | verdict, model | tilt error, degrees | corners, px RMS | inside 2 σ | not told | worst, σ |\n|---|---|---|---|---|---|---|---|\n";
 	for (const Result& r : results)

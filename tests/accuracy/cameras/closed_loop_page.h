@@ -62,7 +62,7 @@ struct Refusals
 };
 Refusals RefusalsOf(const std::vector<Result>& results, const std::vector<std::string>& expected);
 
-/// Sets of thin lenses, which have no rims, and how many of them were given one.
+/// Sets of thin lenses without rims, and how many of them were given one.
 struct MadeUpRims
 {
 	int sets = 0, with = 0;

@@ -46,6 +46,8 @@ Scene SceneOf(const Camera& c, double tilt, double direction)
 	scene.lens_normal = synthetic::LensNormal(tilt, direction);
 	scene.k1 = c.k1;
 	scene.lens_points = c.lens_points;
+	for (const synthetic::Rim& rim : c.rims)
+		scene.rims.push_back({ rim.radius * c.Aperture() / 2, rim.distance * c.focal_length });
 	synthetic::FocusOn(scene, c.ImageDistance(), c.focal_length);
 	return scene;
 }
@@ -103,12 +105,12 @@ void Place(Scene& scene, const Eigen::Vector2d& middle, const Eigen::Matrix3d& t
 }
 
 
-/// A board that fills most of the picture at the usual distance.
+/// A board that fills as much of the picture at the usual distance as it should.
 void SizeBoard(Camera& c)
 {
 	const double wide = c.board.IsCheckerboard() ? c.board.columns : c.board.CircleColumn(c.board.columns - 1, 1) + 2, high = c.board.IsCheckerboard() ? c.board.rows : c.board.rows + 1;
 	const double scale = UsualDistance(c) * c.pitch / c.ImageDistance();
-	c.board.square_mm = 0.85 * scale * std::min(c.width / wide, c.height / high);
+	c.board.square_mm = c.fill * scale * std::min(c.width / wide, c.height / high);
 	if (!c.board.IsCheckerboard())
 		c.board.circle_diameter_mm = 0.55 * c.board.CirclePitch() * c.board.square_mm;
 }

@@ -33,6 +33,10 @@ struct Camera
 	std::string glass{};
 	/// Every board is photographed at this f-number too, without moving; 0: not.
 	double stopped_to = 0;
+	/// How much of the picture the board fills at the plane of focus, where its size is chosen. A large one is in the picture only beyond that plane, a small one on both sides.
+	double fill = 0.85;
+	/// Of the thin lens, in its own measures: `radius` in radii of the opening at f_number, `distance` in focal lengths.
+	std::vector<synthetic::Rim> rims{};
 	int lens_points = 800;   ///< of a picture; 300 leave 1e-4 of a blur
 
 	double ImageDistance() const;
