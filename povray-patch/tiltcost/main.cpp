@@ -96,13 +96,16 @@ std::string Answer(const Options& options, const Pilot& pilot, const Machine& ma
 	return text;
 }
 
-/// The table's column of errors with denoise, where the pilot knows enough, and the time that it takes.
-void PredictDenoised(const Pilot& pilot, Report& report)
+/// The table's column of errors with denoise, where the pilot knows enough, the time that it takes, and how sure each row is.
+void CompleteTable(const Pilot& pilot, Report& report)
 {
 	for (auto* rows : {&report.rows, &report.own})
 		for (Row& row : *rows)
+		{
 			if (row.setting.max <= pilot.Samples())
 				row.denoised_error = pilot.PredictDenoised(row.setting);
+			row.spread = SpreadOf(pilot, report.pilot.machine, row);
+		}
 	report.denoise_seconds = DenoiseSecondsPerPixel() * report.pilot.machine.pixels;
 }
 
@@ -163,13 +166,7 @@ void Run(const Options& options)
 	// Slow, and not printed where --time, --error or --levels asks for one setting.
 	const bool table = options.time <= 0 && options.error <= 0 && options.levels <= 0;
 	if (table || !options.csv.empty())
-		PredictDenoised(pilot, report);
-	if (table)
-	{
-		const size_t stop = std::min(StopsPaying(report.rows, options.stop_levels), report.rows.size() - 1);
-		report.spread = SpreadOf(pilot, report.pilot.machine, report.rows[stop].setting);
-	}
-
+		CompleteTable(pilot, report);
 	if (!options.csv.empty())
 		tiltcal::WriteText(options.csv, CsvText(report));
 	if (!options.plot.empty())

@@ -48,6 +48,7 @@ void Pilot::AddDenoised(const Block& block, const std::vector<size_t>& known, st
 			DenoisedClass& of = classes[known[i]];
 			for (int c = 0; c < 3; ++c)
 				of.off += std::pow(Clipped(denoised[c][i]) - Clipped(block.pixels[i].levels.back().mean[c]), 2) / 3;
+			of.raw_off += block.pixels[i].levels[known[i]].off[LINEAR];
 			of.changes += block.pixels[i].changes[LINEAR];
 			of.kept += block.pixels[i].changes[LINEAR] * own[i];
 			of.kept_squared += block.pixels[i].changes[LINEAR] * (own[i] * own[i]);
@@ -63,25 +64,54 @@ double Pilot::DenoisedClass::SquaredErrors() const
 	return std::max(off + 2 * kept.SumOfVariances() - changes.SumOfVariances(), kept_squared.SumOfVariances());
 }
 
-double Pilot::PredictDenoised(const Setting& setting) const
+Pilot::DenoisedClass& Pilot::DenoisedClass::operator+=(const DenoisedClass& o)
+{
+	off += o.off;
+	raw_off += o.raw_off;
+	changes += o.changes;
+	kept += o.kept;
+	kept_squared += o.kept_squared;
+	return *this;
+}
+
+/// What denoise makes of the error in the few pixels that have all their neighbours, times the error without of all pixels: where a picture is
+/// hard is chance, and the same for both.
+double Pilot::PredictDenoised(const Setting& setting, std::vector<double>* left_out, int parts) const
 {
 	const std::vector<tilt_lens::SampleLevel> levels = tilt_lens::SampleLevels(setting.min, setting.max, setting.variance, setting.confidence, &Chi2);
-	std::vector<DenoisedClass> classes(Known(samples) + 1);
-	for (const Block& block : blocks)
+	const size_t count = Known(samples) + 1;
+	std::vector<std::vector<DenoisedClass>> classes(parts, std::vector<DenoisedClass>(count));
+	for (size_t b = 0; b < blocks.size(); ++b)
 	{
 		std::vector<size_t> known;
-		for (const size_t level : LevelsOf(block, levels))
+		for (const size_t level : LevelsOf(blocks[b], levels))
 			known.push_back(Known(levels[level].samples));
-		AddDenoised(block, known, classes);
+		AddDenoised(blocks[b], known, classes[b % size_t(parts)]);
 	}
-	double sum = 0, pixels = 0;
-	for (const DenoisedClass& of : classes)
-		if (of.changes.pixels > 0)
+	const auto error = [&](int without)
+	{
+		double denoised = 0, raw = 0, pixels = 0;
+		for (size_t k = 0; k < count; ++k)
 		{
-			sum += of.SquaredErrors();
+			DenoisedClass of;
+			for (int part = 0; part < parts; ++part)
+				if (part != without)
+					of += classes[size_t(part)][k];
+			if (of.changes.pixels == 0)
+				continue;
+			denoised += of.SquaredErrors();
+			raw += of.RawSquaredErrors();
 			pixels += of.changes.pixels;
 		}
-	return std::sqrt(sum / pixels);
+		return raw > 0 ? Predict(setting, without, without < 0 ? 1 : parts).error * std::sqrt(denoised / raw) : std::sqrt(denoised / pixels);
+	};
+	if (left_out)
+	{
+		left_out->clear();
+		for (int part = 0; part < parts; ++part)
+			left_out->push_back(error(part));
+	}
+	return error(-1);
 }
 
 }

@@ -113,14 +113,14 @@ bool Pilot::IsInside(const Block& block, int x, int y, int reach)
 
 /// What the first samples of a block's pixels differ by; nothing where they are too many to be compared. The pilot keeps no
 /// transparency, whose edges a render sees too.
-std::vector<tilt_lens::Between> Pilot::CompareFirst(const Block& block, int samples) const
+std::vector<tilt_lens::Between> Pilot::CompareFirst(const Block& block, int first) const
 {
-	if (samples >= tilt_lens::LeastOwnVariance)
+	if (first >= tilt_lens::LeastOwnVariance)
 		return std::vector<tilt_lens::Between>(block.pixels.size());
 	std::vector<float> means;
 	for (const Pixel& pixel : block.pixels)
-		means.insert(means.end(), std::begin(pixel.levels[Known(samples)].mean), std::end(pixel.levels[Known(samples)].mean));
-	return tilt_lens::BetweenNeighbours(means, block.width, block.height, 3, samples);
+		means.insert(means.end(), std::begin(pixel.levels[Known(first)].mean), std::end(pixel.levels[Known(first)].mean));
+	return tilt_lens::BetweenNeighbours(means, block.width, block.height, 3, first);
 }
 
 /// The level that each pixel of a block goes on to, as if the block were the picture.

@@ -75,8 +75,9 @@ public:
 	int Pixels() const { return pixel_count; }
 
 	/// RMS error of a setting's picture when it is denoised, by denoising the pilot's blocks: slow.
-	/// Each block is denoised as a picture of its own, so the error is a little too large.
-	double PredictDenoised(const Setting& setting) const;
+	/// Each block is denoised as a picture of its own, so the error is a little too large. `left_out`, where not null, receives what it would be
+	/// without each of `parts` parts of the blocks.
+	double PredictDenoised(const Setting& setting, std::vector<double>* left_out = nullptr, int parts = 1) const;
 
 private:
 	/// The two ways an error is measured in.
@@ -115,14 +116,16 @@ private:
 	/// Pixels that stop at the same level, denoised.
 	struct DenoisedClass
 	{
-		double off = 0;                             ///< squared distance of the denoised ones from m(N)
+		double off = 0, raw_off = 0;                ///< squared distances of the denoised ones, and of the others, from m(N)
 		tilt_lens::LevelChanges changes, kept, kept_squared;    ///< all, and by the shares that pixels keep of their own means, and the shares' squares
 
+		DenoisedClass& operator+=(const DenoisedClass& o);
 		double SquaredErrors() const;
+		double RawSquaredErrors() const { return raw_off + changes.SumOfVariances(); }
 	};
 
 	static Pixel Prepare(const std::vector<tilt_lens::PilotLevel>& levels);
-	std::vector<tilt_lens::Between> CompareFirst(const Block& block, int samples) const;
+	std::vector<tilt_lens::Between> CompareFirst(const Block& block, int first) const;
 	std::vector<size_t> LevelsOf(const Block& block, const std::vector<tilt_lens::SampleLevel>& levels) const;
 	static bool IsInside(const Block& block, int x, int y, int reach = tilt_lens::NeighbourReach);
 	size_t Known(int count) const;

@@ -24,6 +24,19 @@ std::string RowText(const Row& row, char mark)
 		p.Levels(), denoised, row.rays_per_pixel, CountText(row.rays), DurationText(row.cpu), DurationText(row.wall), SceneText(row.setting));
 }
 
+/// How sure the predictions are, by the least sure of the rows.
+std::string SpreadText(const std::vector<Row>& rows)
+{
+	Spread most;
+	for (const Row& row : rows)
+		most = {std::max(most.error, row.spread.error), std::max(most.denoised, row.spread.denoised), std::max(most.seconds, row.spread.seconds)};
+	if (most.error <= 0 && most.seconds <= 0)
+		return {};
+	const std::string denoised = most.denoised > 0 ? fmt::format(", denoised ones within {:.0f} %", std::ceil(100 * most.denoised)) : "";
+	return fmt::format("Predicted from a part of the picture: errors within {:.0f} %{}, times within {:.0f} % (one standard deviation, of the least sure row).\n",
+		std::ceil(100 * most.error), denoised, std::ceil(100 * most.seconds));
+}
+
 std::string Quoted(const std::string& text)
 {
 	std::string quoted = "\"";
@@ -78,9 +91,7 @@ std::string HeaderText(const Report& report)
 		tilt_lens::PilotBlockSize, report.samples,
 		DurationText(report.pilot.wall), report.range.Count() > 1 ? " of each frame" : "",
 		DurationText(machine.start_wall / report.range.Count()), DurationText(machine.start_cpu / report.range.Count()));
-	if (report.spread.error > 0 || report.spread.seconds > 0)
-		text += fmt::format("Predicted from a part of the picture: errors within {:.0f} %, times within {:.0f} % (one standard deviation).\n",
-			std::ceil(100 * report.spread.error), std::ceil(100 * report.spread.seconds));
+	text += SpreadText(report.rows);
 	if (log.radiosity)
 		text += "Radiosity: its pretrace counts as start; what is gathered later depends on where the rays go and is predicted less well.\n";
 	return text;
@@ -134,13 +145,15 @@ std::string AnswerText(const Row& row)
 
 std::string CsvText(const Report& report)
 {
-	std::string text = "scene,kind,rms_error,levels_8bit,rays,rays_per_pixel,cpu_s,wall_s,min,max,variance,confidence,extrapolated,denoised_rms_error,denoise_cpu_s\n";
+	std::string text = "scene,kind,rms_error,levels_8bit,rays,rays_per_pixel,cpu_s,wall_s,min,max,variance,confidence,extrapolated,denoised_rms_error,denoise_cpu_s,"
+		"rms_error_sigma,denoised_rms_error_sigma,cpu_s_sigma\n"; // sigmas: relative
 	const size_t stop = StopsPaying(report.rows, report.stop_levels);
 	const auto add = [&](const Row& row, const char* kind)
 	{
 		const Prediction& p = row.predicted;
-		text += fmt::format("{},{},{:.6g},{:.4g},{:.6g},{:.5g},{:.5g},{:.5g},{},{},{:.9g},{:.9g},{:.3g},{:.6g},{:.3g}\n", Quoted(report.scene), kind, p.error, p.Levels(), row.rays,
-			row.rays_per_pixel, row.cpu, row.wall, row.setting.min, row.setting.max, row.setting.variance, row.setting.confidence, p.extrapolated, row.denoised_error, report.denoise_seconds);
+		text += fmt::format("{},{},{:.6g},{:.4g},{:.6g},{:.5g},{:.5g},{:.5g},{},{},{:.9g},{:.9g},{:.3g},{:.6g},{:.3g},{:.3g},{:.3g},{:.3g}\n", Quoted(report.scene), kind, p.error, p.Levels(), row.rays,
+			row.rays_per_pixel, row.cpu, row.wall, row.setting.min, row.setting.max, row.setting.variance, row.setting.confidence, p.extrapolated, row.denoised_error, report.denoise_seconds,
+			row.spread.error, row.spread.denoised, row.spread.seconds);
 	};
 	for (size_t i = 0; i < report.rows.size(); ++i)
 		add(report.rows[i], i == stop ? "stops-paying" : "row");

@@ -31,7 +31,6 @@ struct Report
 	std::vector<Row> best;      ///< as of BestRows
 	std::vector<Row> rows;      ///< of the table, the coarsest first
 	std::vector<Row> own;       ///< settings that were asked for
-	Spread spread;              ///< of the row where it stops paying, or of the last
 	double denoise_seconds = 0; ///< what denoise takes for the picture
 	double stop_levels = 0;     ///< where it stops paying
 };

@@ -13,7 +13,9 @@ namespace tiltcost
 
 Row MakeRow(const Pilot& pilot, const Machine& machine, const Setting& setting)
 {
-	Row row{setting, pilot.Predict(setting)};
+	Row row;
+	row.setting = setting;
+	row.predicted = pilot.Predict(setting);
 	const double trace = row.predicted.seconds_per_pixel * machine.pixels;
 	row.rays_per_pixel = row.predicted.samples_per_pixel * machine.rays_per_sample;
 	row.rays = row.rays_per_pixel * machine.pixels;
@@ -223,15 +225,17 @@ size_t StopsPaying(const std::vector<Row>& rows, double levels)
 	return i;
 }
 
-Spread SpreadOf(const Pilot& pilot, const Machine& machine, const Setting& setting)
+Spread SpreadOf(const Pilot& pilot, const Machine& machine, const Row& row)
 {
 	const int parts = 10;
 	if (pilot.Blocks() < 2 * parts)
 		return {};
-	std::vector<double> errors, seconds;
+	std::vector<double> errors, denoised(parts, 0.0), seconds;
+	if (row.denoised_error > 0)
+		pilot.PredictDenoised(row.setting, &denoised, parts);
 	for (int part = 0; part < parts; ++part)
 	{
-		const Prediction p = pilot.Predict(setting, part, parts);
+		const Prediction p = pilot.Predict(row.setting, part, parts);
 		errors.push_back(p.error);
 		seconds.push_back(machine.start_cpu + p.seconds_per_pixel * machine.pixels);
 	}
@@ -246,7 +250,7 @@ Spread SpreadOf(const Pilot& pilot, const Machine& machine, const Setting& setti
 	};
 	// Blocks that are traced are not uncertain.
 	const double untraced = std::sqrt(std::max(0.0, 1 - pilot.Pixels() / machine.pixels));
-	return {relative(errors) * untraced, relative(seconds) * untraced};
+	return {relative(errors) * untraced, relative(denoised) * untraced, relative(seconds) * untraced};
 }
 
 }

@@ -25,6 +25,13 @@ struct Machine
 	int rows = 0;                       ///< that are rendered of a picture; 0: not known, and taken to be many
 };
 
+/// One standard deviation of a row's errors and of its time, relative, that come from tracing
+/// some blocks instead of all: jackknife over ten groups of blocks. 0: not known.
+struct Spread
+{
+	double error = 0, denoised = 0, seconds = 0;
+};
+
 /// A row of the table.
 struct Row
 {
@@ -33,6 +40,7 @@ struct Row
 	double rays_per_pixel = 0, rays = 0;    ///< through the lens
 	double cpu = 0, wall = 0;       ///< of the whole picture, seconds
 	double denoised_error = 0;      ///< RMS, with denoise; 0: not asked for
+	Spread spread;
 };
 
 Row MakeRow(const Pilot& pilot, const Machine& machine, const Setting& setting);
@@ -76,13 +84,8 @@ std::vector<Row> TableRows(const std::vector<Row>& best, int count);
 /// Index of the first row below `levels` (of 255): where it stops paying. rows.size() for none.
 size_t StopsPaying(const std::vector<Row>& rows, double levels);
 
-/// One standard deviation of a row's error and of its time, relative, that come from tracing
-/// some blocks instead of all: jackknife over ten groups of blocks.
-struct Spread
-{
-	double error = 0, seconds = 0;
-};
-Spread SpreadOf(const Pilot& pilot, const Machine& machine, const Setting& setting);
+/// Of a row; with denoise where the row has its error. Nothing where the pilot has too few blocks to tell.
+Spread SpreadOf(const Pilot& pilot, const Machine& machine, const Row& row);
 
 }
 

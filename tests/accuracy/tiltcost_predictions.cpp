@@ -60,17 +60,19 @@ struct Scene
 {
 	std::string name;
 	bool tilted = false, ours = false;     ///< `ours`: a scene of the repository, not of the race
+	/// Samples that pixels of the truth may take where the first leave them uncertain by 0.01. A picture file clips what is brighter than white:
+	/// means of too few samples about white come out too dark, however many such pictures are averaged.
+	int lamps = 0;
 };
 
-const Scene Scenes[] = {{"area_lights"}, {"bokeh"}, {"floor", true}, {"focus"}, {"foliage"}, {"foreground"}, {"glass"}, {"plain"}, {"shelf", true}, {"texture"},
+const Scene Scenes[] = {{"area_lights"}, {"bokeh", false, false, 4096}, {"floor", true}, {"focus"}, {"foliage"}, {"foreground"}, {"glass"}, {"plain"}, {"shelf", true}, {"texture"},
 	{"first-tilt", true, true}};
 
-/// What tiltcost says: its rows, and one standard deviation of errors and times, relative.
+/// What tiltcost says.
 struct Predicted
 {
 	std::vector<Row> rows;
 	double share = 0;                      ///< of the picture's pixels
-	double error_sigma = 0, time_sigma = 0;
 };
 
 /// `off` is predicted / true - 1. A bound beyond the promise is a factor, the same one down as up: what is 100 % too much one way is half the other.
@@ -80,7 +82,7 @@ struct Result
 {
 	std::string scene;
 	Row predicted;
-	double share = 0, error_sigma = 0, time_sigma = 0;
+	double share = 0;
 	double error = 0, uncertain = 0, rays = 0, cpu = 0;   ///< as rendered; `uncertain`: one standard deviation of `error`, relative
 	double denoised = 0, denoised_uncertain = 0;          ///< errors of the same with denoise, where they are predicted
 
@@ -88,11 +90,14 @@ struct Result
 	double RaysOff() const { return predicted.rays / rays - 1; }
 	double TimeOff() const { return predicted.cpu / cpu - 1; }
 	double DenoisedOff() const { return denoised > 0 ? predicted.denoised_error / denoised - 1 : 0; }
-	double ErrorLimit() const { return std::min(MostBound, std::max(ErrorBound, Student * std::hypot(error_sigma, uncertain))); }
-	double DenoisedLimit() const { return std::min(MostBound, std::max(ErrorBound, Student * std::hypot(error_sigma, denoised_uncertain))); }
-	double TimeLimit() const { return std::min(MostBound, std::max(TimeBound, Student * time_sigma)); }
+	double ErrorLimit() const { return std::min(MostBound, std::max(ErrorBound, Student * std::hypot(predicted.error_sigma, uncertain))); }
+	double DenoisedLimit() const { return std::min(MostBound, std::max(ErrorBound, Student * std::hypot(predicted.denoised_sigma, denoised_uncertain))); }
+	double TimeLimit() const { return std::min(MostBound, std::max(TimeBound, Student * predicted.time_sigma)); }
 	/// Of errors always; of times where they are judged, for elsewhere they are the machine's.
-	bool SigmasPromise(bool judge_time) const { return error_sigma <= MostSigma && (!judge_time || time_sigma <= MostSigma); }
+	bool SigmasPromise(bool judge_time) const
+	{
+		return predicted.error_sigma <= MostSigma && (denoised <= 0 || predicted.denoised_sigma <= MostSigma) && (!judge_time || predicted.time_sigma <= MostSigma);
+	}
 	/// Time is rays times what one takes: the bound of the product holds for the factor that is the machine's no affair.
 	bool Good(bool judge_time) const
 	{
@@ -196,11 +201,6 @@ Predicted RunTiltcost(const Places& places, const Scene& scene, unsigned threads
 	Predicted predicted;
 	const std::string text = tiltcal::ReadText(log.string(), "a log");
 	predicted.share = std::min(1.0, Said(text, "Pilot: ") * 16 * 16 / (double(places.effort.width) * places.effort.height)); // blocks at the rim are cut
-	if (predicted.share < 1)   // of a whole picture nothing is left to chance
-	{
-		predicted.error_sigma = Said(text, "errors within ") / 100;
-		predicted.time_sigma = Said(text, "times within ") / 100;
-	}
 	for (const TiltcostRow& row : ReadTiltcostTable(csv))
 		predicted.rows.push_back({row, false});
 	return predicted;
@@ -221,9 +221,15 @@ struct Truth
 Truth RenderTruth(const Places& places, const Scene& scene)
 {
 	const unsigned threads = AllThreads();
-	Row fixed;
-	fixed.max = places.effort.truth_samples;
-	Truth truth = {Render(places, scene, fixed, 1, threads).picture, Render(places, scene, fixed, 2, threads).picture};
+	Row row;
+	row.max = places.effort.truth_samples;
+	if (scene.lamps > row.max)
+	{
+		row.min = row.max;
+		row.max = scene.lamps;
+		row.variance = 1e-4;
+	}
+	Truth truth = {Render(places, scene, row, 1, threads).picture, Render(places, scene, row, 2, threads).picture};
 	for (size_t i = 0; i < truth.mean.rgb.size(); ++i)
 	{
 		const double first = truth.mean.rgb[i], second = truth.half_difference.rgb[i];
@@ -269,7 +275,7 @@ std::vector<Result> CheckScene(const Places& places, const Scene& scene)
 	{
 		const Row row = *std::min_element(predicted.rows.begin(), predicted.rows.end(),
 			[&](const Row& a, const Row& b) { return std::abs(std::log(a.error / error)) < std::abs(std::log(b.error / error)); });
-		Result result = {scene.name, row, predicted.share, predicted.error_sigma, predicted.time_sigma};
+		Result result = {scene.name, row, predicted.share};
 		const Rendered rendered = Render(places, scene, row, 0, threads);
 		const Judged raw = Judge(rendered.picture, truth, scene.name);
 		result.error = raw.error;
@@ -298,7 +304,7 @@ std::string DenoisedCells(const Result& r)
 
 void Write(const Places& places, const std::vector<Result>& results)
 {
-	std::string csv = "scene,min,max,variance,predicted_error,predicted_error_sigma,error,error_sigma,predicted_rays,rays,predicted_cpu_s,predicted_cpu_sigma,cpu_s,pilot_share,predicted_denoised_error,denoised_error,denoised_error_sigma\n";
+	std::string csv = "scene,min,max,variance,predicted_error,predicted_error_sigma,error,error_sigma,predicted_rays,rays,predicted_cpu_s,predicted_cpu_sigma,cpu_s,pilot_share,predicted_denoised_error,predicted_denoised_error_sigma,denoised_error,denoised_error_sigma\n";
 	std::string html = fmt::format("<h2>tiltcost: predicted and rendered</h2>\n<p>{} × {} pixels, predicted once before anything is rendered, from the part of the picture that stands beside it. Errors against "
 		"truths with other lens samples, whose own error is taken off. Bounds: {:.0f} % in rays{}, {:.0f} % in error, or {:.2f} standard deviations (Student's t, once in 1000) where those are wider, never more than {:.0f} %, and no standard "
 		"deviation that is told may be beyond {:.0f} %."
@@ -308,8 +314,8 @@ void Write(const Places& places, const std::vector<Result>& results)
 	for (const Result& r : results)
 	{
 		const Row& p = r.predicted;
-		csv += fmt::format("{},{},{},{:g},{:.5g},{:.3g},{:.5g},{:.3g},{:.0f},{:.0f},{:.4g},{:.3g},{:.4g},{:.4g},{:.5g},{:.5g},{:.3g}\n", r.scene, p.min, p.max, p.variance, p.error, r.error_sigma, r.error, r.uncertain,
-			p.rays, r.rays, p.cpu, r.time_sigma, r.cpu, r.share, r.denoised > 0 ? p.denoised_error : 0, r.denoised, r.denoised_uncertain);
+		csv += fmt::format("{},{},{},{:g},{:.5g},{:.3g},{:.5g},{:.3g},{:.0f},{:.0f},{:.4g},{:.3g},{:.4g},{:.4g},{:.5g},{:.3g},{:.5g},{:.3g}\n", r.scene, p.min, p.max, p.variance, p.error, p.error_sigma, r.error, r.uncertain,
+			p.rays, r.rays, p.cpu, p.time_sigma, r.cpu, r.share, r.denoised > 0 ? p.denoised_error : 0, p.denoised_sigma, r.denoised, r.denoised_uncertain);
 		html += fmt::format("<tr{}><td>{}</td><td>{:.1f} %</td><td>{}, {}, {:g}</td><td>{:.4f}</td><td>{:.4f}</td><td>{:+.0f} %</td><td>{:.0f} %</td>{}<td>{:.0f}</td><td>{:.0f}</td><td>{:+.0f} %</td>"
 			"<td>{:.2f}</td><td>{:.2f}</td><td>{:+.0f} %</td><td>{:.0f} %</td></tr>\n", r.Good(places.effort.judge_time) ? "" : " class=\"lost\"", r.scene, 100 * r.share, p.min, p.max, p.variance, p.error, r.error, 100 * r.ErrorOff(), 100 * r.ErrorLimit(),
 			DenoisedCells(r), p.rays, r.rays, 100 * r.RaysOff(), p.cpu, r.cpu, 100 * r.TimeOff(), 100 * r.TimeLimit());

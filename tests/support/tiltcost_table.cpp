@@ -17,8 +17,9 @@ std::vector<TiltcostRow> ReadTiltcostTable(const std::filesystem::path& csv)
 	{
 		const std::string rest = line.substr(line.rfind('"') + 2); // the scene's name is quoted
 		TiltcostRow row;
-		if (std::sscanf(rest.c_str(), "%*[^,],%lf,%*f,%lf,%*f,%lf,%*f,%d,%d,%lf,%lf,%*f,%lf,%lf", &row.error, &row.rays, &row.cpu, &row.min, &row.max, &row.variance,
-			&row.confidence, &row.denoised_error, &row.denoise_cpu) != 9)
+		if (std::sscanf(rest.c_str(), "%*[^,],%lf,%*f,%lf,%*f,%lf,%*f,%d,%d,%lf,%lf,%*f,%lf,%lf,%lf,%lf,%lf", &row.error, &row.rays, &row.cpu, &row.min, &row.max, &row.variance,
+			&row.confidence, &row.denoised_error, &row.denoise_cpu,
+			&row.error_sigma, &row.denoised_sigma, &row.time_sigma) != 12)
 			throw std::runtime_error("tiltcost wrote " + line);
 		rows.push_back(row);
 	}

@@ -214,10 +214,12 @@ TEST(Prediction, JackknifeLeavesOutEveryTenth)
 	EXPECT_NEAR(pilot.Predict(Fixed(16), 3, 10).seconds_per_pixel, 16e-6, 1e-12);
 	EXPECT_NEAR(pilot.Predict(Fixed(16)).seconds_per_pixel, 16e-6 * 1.9, 1e-12);
 	// Two outlying blocks of twenty: the spread is neither nothing nor everything.
-	const Spread spread = SpreadOf(pilot, Machine{1e6, 0, 0, 1}, Fixed(16));
+	const Machine machine{1e6, 0, 0, 1};
+	const Spread spread = SpreadOf(pilot, machine, MakeRow(pilot, machine, Fixed(16)));
 	EXPECT_GT(spread.seconds, 0.2);
 	EXPECT_LT(spread.seconds, 0.8);
-	EXPECT_EQ(SpreadOf(Pilot(ParsePilot(Flat(0, 1, 16, 0.5, 0))), Machine{1e6, 0, 0, 1}, Fixed(16)).error, 0);
+	const Pilot one(ParsePilot(Flat(0, 1, 16, 0.5, 0)));
+	EXPECT_EQ(SpreadOf(one, machine, MakeRow(one, machine, Fixed(16))).error, 0);
 }
 
 // A grey field with independent noise of variance 0.01/n: denoise finds it; a checkerboard of single pixels it must leave.
@@ -247,6 +249,41 @@ TEST(Prediction, DenoiseHelpsWhereNeighboursAreAlike)
 		else
 			EXPECT_LT(denoised, 0.5 * raw);
 	}
+}
+
+// Only the middle of a block has all its neighbours. Where noise is twice as strong around it, and denoise must leave all of it, the picture's error is that of all pixels.
+TEST(Prediction, DenoisedByTheMiddleOfBlocksIsTheErrorOfAll)
+{
+	std::mt19937 random(4);
+	std::normal_distribution<double> normal(0, 1);
+	std::string text;
+	for (int b = 0; b < 20; ++b)
+	{
+		std::vector<double> sums(Side * Side);
+		const bool noisy = b % 10 == 3;   // a part of the jackknife
+		text += BlockText(Side * b, 1, 256, [&](int pixel, int k)
+		{
+			const int x = pixel % Side, y = pixel / Side;
+			const bool middle = x >= 4 && y >= 4 && x < Side - 4 && y < Side - 4;
+			const double sigma = (middle ? 0.05 : 0.1) * (noisy ? 3 : 1);
+			for (int i = k > 0 ? 1 << (k - 1) : 0; i < 1 << k; ++i)
+				sums[size_t(pixel)] += sigma * normal(random);
+			return Grey(0.3 + 0.4 * ((x + y) % 2) + sums[size_t(pixel)] / (1 << k), sigma * sigma);
+		});
+	}
+	const Pilot pilot(ParsePilot(text));
+	const Machine machine{1e6, 0, 0, 1};
+	Row row = MakeRow(pilot, machine, Fixed(16));
+	row.denoised_error = pilot.PredictDenoised(row.setting);
+	// 1280 pixels tell of a variance to 4 %; denoise finds by chance what it may take in some.
+	EXPECT_NEAR(row.denoised_error, row.predicted.error, 0.1 * row.predicted.error);
+	// One part of ten has nine times the variance: errors are 1 without it and sqrt(17 / 9) without another, by which one standard deviation is 0.252. Two blocks tell of
+	// their variance to 6 % (128 pixels, of one colour).
+	const Spread spread = SpreadOf(pilot, machine, row);
+	EXPECT_NEAR(spread.error, 0.252, 0.06);
+	EXPECT_NEAR(spread.denoised, 0.252, 0.06);
+	row.denoised_error = 0;
+	EXPECT_EQ(SpreadOf(pilot, machine, row).denoised, 0) << "it was not asked for";
 }
 
 TEST(Search, RowsScaleToThePicture)
