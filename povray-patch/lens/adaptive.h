@@ -91,7 +91,7 @@ struct Between
 {
 	double most = 0.0;              ///< of all neighbours and channels
 	double mean = 0.0;              ///< over the neighbours and over red, green and blue
-	bool known = false;
+	bool known = false;             ///< whether there are neighbours
 };
 
 /// Variance of a sample by which a pixel of so many is judged, `own` that of its own samples.

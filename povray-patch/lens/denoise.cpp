@@ -54,16 +54,17 @@ inline float UpTo(float range, float x) { return std::min(range, std::max(0.0f, 
 /// Two parts of a band of the picture, with margins, and what is best so far.
 struct Band
 {
-	PixelPlane first[3], later[3], mean[PictureChannels], share;
-	PixelPlane seen_first[3], seen_later[3];    // up to ChoiceRange
+	PixelPlane first[PictureChannels], later[PictureChannels], mean[PictureChannels], share;
+	PixelPlane seen_first[PictureChannels], seen_later[PictureChannels];    // up to ChoiceRange
 	PixelPlane variance;                // of the mean as chosen by, own estimate, smoothed
+	PixelPlane light;                   // of that, red's, green's and blue's; empty where there is nothing else
 	PixelPlane linear;                  // the same of all its light: what of it neighbours get
 	PixelPlane cost, least;             // of what is best so far, summed by credit; of the best kernel alone
-	PixelPlane best[PictureChannels], best_first[3], best_later[3];     // the same of results; best of red, green and blue is made of the parts
+	PixelPlane best[PictureChannels], best_first[PictureChannels], best_later[PictureChannels];     // the same of results; best is made of the parts
 	PixelPlane total;                   // credit
 	PixelPlane few;                     // 1 in pixels that average, 0 in those that take the best kernel alone
-	bool used[PictureChannels];         // not 0 everywhere, as transparency mostly is
-	PixelPlane rows, smooth, smooth_first[3], smooth_later[3], other, bias, noise, weight, credit, keep;   // for TryKernel: fresh memory for every kernel is slow
+	std::vector<int> channels;          // red, green and blue, and those of transparency, which mostly is 0 everywhere, where it is not
+	PixelPlane rows, smooth_first[PictureChannels], smooth_later[PictureChannels], other, bias, noise, weight, credit, keep;   // for TryKernel: fresh memory for every kernel is slow
 };
 
 PixelPlane CutPlane(const NoisyPicture& picture, const std::vector<float>& from, int top, int bottom)
@@ -106,10 +107,16 @@ void CutBand(const NoisyPicture& picture, int top, int bottom, Band& band)
 {
 	Count(CutPlane(picture, picture.count, top, bottom), band);
 	const PixelPlane& share = band.share;
+	band.channels.clear();
 	for(int c = 0; c < PictureChannels; c++)
-		band.mean[c] = CutPlane(picture, picture.mean[c], top, bottom);
-	PixelPlane variance(share.width, share.height), linear(share.width, share.height);
-	for(int c = 0; c < 3; c++)
+	{
+		band.best[c] = band.mean[c] = CutPlane(picture, picture.mean[c], top, bottom);
+		if((c < 3) || std::any_of(band.mean[c].v.begin(), band.mean[c].v.end(), [](float v) { return v != 0.0f; }))
+			band.channels.push_back(c);
+	}
+	const bool transparent = band.channels.size() > 3;
+	PixelPlane variance(share.width, share.height), light, linear(share.width, share.height);
+	for(const int c : band.channels)
 	{
 		band.first[c] = CutPlane(picture, picture.first[c], top, bottom);
 		band.later[c] = band.mean[c];
@@ -128,29 +135,30 @@ void CutBand(const NoisyPicture& picture, int top, int bottom, Band& band)
 			linear.v[i] += whole * whole * part;
 			variance.v[i] += difference * difference * part;
 		}
+		if(transparent && (c == 2))
+			light = variance;
 	}
-	for(PixelPlane *p : { &band.rows, &band.smooth, &band.other, &band.bias, &band.noise, &band.weight, &band.credit, &band.keep, &band.variance, &band.linear })
+	for(PixelPlane *p : { &band.rows, &band.other, &band.bias, &band.noise, &band.weight, &band.credit, &band.keep, &band.variance, &band.linear })
 		*p = PixelPlane(share.width, share.height);
-	for(int c = 0; c < 3; c++)
-		band.smooth_first[c] = band.smooth_later[c] = band.smooth;
+	for(const int c : band.channels)
+		band.smooth_first[c] = band.smooth_later[c] = band.other;
 	Smooth(variance, band.rows, band.variance);
 	Smooth(linear, band.rows, band.linear);
-	for(float& v : band.variance.v)
-		v += 1e-14f;                    // flat parts divide by it
+	band.light = light;
+	if(transparent)
+		Smooth(light, band.rows, band.light);
+	for(PixelPlane *p : { &band.variance, &band.light })
+		for(float& v : p->v)
+			v += 1e-14f;                // flat parts divide by it
 	for(float& v : band.linear.v)
 		v += 1e-14f;
 	band.cost = band.least = band.variance;
 	band.total = PixelPlane(share.width, share.height);
 	std::fill(band.total.v.begin(), band.total.v.end(), 1.0f);      // of the pixels as they are
-	for(int c = 0; c < PictureChannels; c++)
+	for(const int c : band.channels)
 	{
-		band.best[c] = band.mean[c];
-		if(c < 3)
-		{
-			band.best_first[c] = band.first[c];
-			band.best_later[c] = band.later[c];
-		}
-		band.used[c] = std::any_of(band.mean[c].v.begin(), band.mean[c].v.end(), [](float v) { return v != 0.0f; });
+		band.best_first[c] = band.first[c];
+		band.best_later[c] = band.later[c];
 	}
 }
 
@@ -197,7 +205,7 @@ void TryKernel(const Kernel& kernel, Band& band)
 	const size_t pixels = band.cost.v.size();
 	for(size_t i = 0; i < pixels; i++)
 		band.other.v[i] = Opposition * band.variance.v[i];
-	for(int c = 0; c < 3; c++)
+	for(const int c : band.channels)
 	{
 		kernel.Apply(band.first[c], band.rows, band.smooth_first[c]);
 		kernel.Apply(band.later[c], band.rows, band.smooth_later[c]);
@@ -210,17 +218,11 @@ void TryKernel(const Kernel& kernel, Band& band)
 
 	if(std::none_of(band.credit.v.begin(), band.credit.v.end(), [](float credit) { return credit > 0.0f; }))
 		return;
-	for(int c = 0; c < 3; c++)
+	for(const int c : band.channels)
 	{
 		Blend(band.first[c], band.smooth_first[c], band.weight, band.credit, band.keep, band.best_first[c]);
 		Blend(band.later[c], band.smooth_later[c], band.weight, band.credit, band.keep, band.best_later[c]);
 	}
-	for(int c = 3; c < PictureChannels; c++)
-		if(band.used[c])
-		{
-			kernel.Apply(band.mean[c], band.rows, band.smooth);
-			Blend(band.mean[c], band.smooth, band.weight, band.credit, band.keep, band.best[c]);
-		}
 }
 
 /// `sum` becomes the mean; where a light without bounds spoilt it, the pixel's own.
@@ -236,7 +238,7 @@ void Divide(PixelPlane& sum, const PixelPlane& total, const PixelPlane& own)
 /// Sums become means, and what was made of the two parts is added up like the parts themselves.
 void Unite(Band& band)
 {
-	for(int c = 0; c < 3; c++)
+	for(const int c : band.channels)
 	{
 		Divide(band.best_first[c], band.total, band.first[c]);
 		Divide(band.best_later[c], band.total, band.later[c]);
@@ -244,9 +246,6 @@ void Unite(Band& band)
 			if(band.least.v[i] < band.variance.v[i])
 				band.best[c].v[i] = band.share.v[i] * band.best_first[c].v[i] + (1.0f - band.share.v[i]) * band.best_later[c].v[i];
 	}
-	for(int c = 3; c < PictureChannels; c++)
-		if(band.used[c])
-			Divide(band.best[c], band.total, band.mean[c]);
 	Divide(band.cost, band.total, band.variance);
 }
 
@@ -255,7 +254,7 @@ void Unite(Band& band)
 bool Predicts(Band& band, int left, int top, int right, int bottom)
 {
 	float made = 0.0f, own = 0.0f;
-	for(int c = 0; c < 3; c++)
+	for(const int c : band.channels)
 		for(int y = top; y < bottom; y++)
 			for(int x = left; x < right; x++)
 			{
@@ -315,7 +314,9 @@ double DenoiseRows(const NoisyPicture& picture, int top, int bottom, std::vector
 			const size_t from = size_t(y - first + Margin) * band.cost.width + x + Margin;
 			for(int c = 0; c < PictureChannels; c++)
 				denoised[c][size_t(y) * picture.width + x] = band.best[c].v[from];
-			const double pixel = band.cost.v[from] * Optimism;
+			// What is left of the variance is taken to be left of red's, green's and blue's too.
+			const double light = band.light.v.empty() ? 1.0 : band.light.v[from] / band.variance.v[from];
+			const double pixel = band.cost.v[from] * light * Optimism;
 			if(squared_error)
 				(*squared_error)[size_t(y) * picture.width + x] = float(pixel);
 			// Stein's weights: GiveCredit's cost is this share of the own variance.

@@ -38,7 +38,8 @@ const int JudgedBlock = 8;
 /// A pixel depends on others at most this far away.
 const int DenoiseReach = 24;
 
-/// Threads of a render that denoise at a time, each a band of rows of its own: a band takes 37 kB for a pixel of the picture's width.
+/// Threads of a render that denoise at a time, each a band of rows of its own: a band takes 37 kB for a pixel of the picture's width,
+/// 48 kB where it is transparent.
 const int DenoiseThreads = 4;
 const int DenoiseBand = 128;                ///< rows: enough that their margins hardly count
 
@@ -48,7 +49,7 @@ struct NoisyPicture
 	int width = 0, height = 0;
 	int left = 0, top = 0;                      ///< where its corner lies in the whole picture
 	std::vector<float> mean[PictureChannels];   ///< of all samples
-	std::vector<float> first[3];                ///< of the first part of them
+	std::vector<float> first[PictureChannels];  ///< of the first part of them
 	std::vector<float> count;                   ///< of samples; the first part are as many as the last power of two below
 
 	void Resize(int w, int h);
@@ -57,7 +58,7 @@ struct NoisyPicture
 /// Denoises rows top..bottom (inclusive) into the same rows of `denoised`, planes of
 /// the picture's size. Rows beyond are looked at where the picture has them. Returns
 /// the sum over those pixels of the estimated squared error (mean of red, green,
-/// blue), and puts each pixel's into `squared_error`, a plane of the picture's size, where that is not null, and what the
+/// blue; what is transparent is judged with them, and is not in it), and puts each pixel's into `squared_error`, a plane of the picture's size, where that is not null, and what the
 /// pixel keeps of its own mean, 1 where it stays as it was, into `own_share`. The result for a row does not depend on top and bottom.
 double DenoiseRows(const NoisyPicture& picture, int top, int bottom, std::vector<float> (&denoised)[PictureChannels],
                    std::vector<float> *squared_error = nullptr, std::vector<float> *own_share = nullptr);

@@ -65,7 +65,7 @@ inline std::vector<Between> BetweenNeighbours(const std::vector<float>& means, i
 			const float *const m = &most[pixel * channels], *const s = &sum[pixel * channels];
 			between[pixel].most = half * *std::max_element(m, m + channels);
 			between[pixel].mean = half * (double(s[0]) + s[1] + s[2]) / (3.0 * std::max(Within(x, columns, 1) * Within(y, rows, 1) - 1, 1));
-			between[pixel].known = true;
+			between[pixel].known = columns * rows > 1;
 		}
 	return between;
 }

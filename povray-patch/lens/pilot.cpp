@@ -57,12 +57,12 @@ std::vector<int> PilotBlocks(const PilotRequest& request, int width, int height)
 	return blocks;
 }
 
-std::string PilotText(int left, int top, int width, int height, double seconds, const PilotSetting& setting, const std::vector<std::vector<PilotLevel> >& pixels)
+std::string PilotText(int left, int top, int width, int height, double seconds, double first_seconds, const PilotSetting& setting, const std::vector<std::vector<PilotLevel> >& pixels)
 {
 	char number[160];
 	std::string text;
 
-	std::snprintf(number, sizeof(number), "block %d %d %d %d %.6g %d %d %.9g %.9g %d\n", left, top, width, height, seconds,
+	std::snprintf(number, sizeof(number), "block %d %d %d %d %.6g %.6g %d %d %.9g %.9g %d\n", left, top, width, height, seconds, first_seconds,
 		setting.min, setting.max, setting.variance, setting.confidence, int(setting.denoise));
 	text += number;
 	for(size_t i = 0; i < pixels.size(); i++)
@@ -70,7 +70,7 @@ std::string PilotText(int left, int top, int width, int height, double seconds, 
 		for(size_t k = 0; k < pixels[i].size(); k++)
 		{
 			const PilotLevel& l = pixels[i][k];
-			std::snprintf(number, sizeof(number), "%s%d %.9g %.9g %.9g %.9g", k > 0 ? " " : "", l.samples, l.mean[0], l.mean[1], l.mean[2], l.variance);
+			std::snprintf(number, sizeof(number), "%s%d %.9g %.9g %.9g %.9g %.9g %.9g", k > 0 ? " " : "", l.samples, l.mean[0], l.mean[1], l.mean[2], l.mean[3], l.mean[4], l.variance);
 			text += number;
 		}
 		text += "\n";

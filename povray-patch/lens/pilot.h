@@ -60,7 +60,7 @@ std::vector<int> PilotBlocks(const PilotRequest& request, int width, int height)
 struct PilotLevel
 {
 	int samples;
-	double mean[3];             ///< red, green, blue, linear
+	double mean[5];             ///< red, green, blue, linear; filter, transmit
 	double variance;            ///< of a sample, the largest of the channels; 0 for one sample
 };
 
@@ -73,10 +73,10 @@ struct PilotSetting
 };
 
 /// One block as text:
-///   block LEFT TOP WIDTH HEIGHT SECONDS MIN MAX VARIANCE CONFIDENCE DENOISE
-/// (pixels; CPU seconds for all its samples; the scene's setting), then row by row a line a pixel:
-///   N MEAN_R MEAN_G MEAN_B VARIANCE, for N = 1, 2, 4, ... up to the samples.
-std::string PilotText(int left, int top, int width, int height, double seconds, const PilotSetting& setting, const std::vector<std::vector<PilotLevel> >& pixels);
+///   block LEFT TOP WIDTH HEIGHT SECONDS FIRST MIN MAX VARIANCE CONFIDENCE DENOISE
+/// (pixels; CPU seconds for all its samples, and for its pixels' first ones with all that a pixel costs once; the scene's setting), then row by row a line a pixel:
+///   N MEAN_R MEAN_G MEAN_B MEAN_FILTER MEAN_TRANSMIT VARIANCE, for N = 1, 2, 4, ... up to the samples.
+std::string PilotText(int left, int top, int width, int height, double seconds, double first_seconds, const PilotSetting& setting, const std::vector<std::vector<PilotLevel> >& pixels);
 
 }
 

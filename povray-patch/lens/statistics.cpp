@@ -47,6 +47,11 @@ double RenderCounts::RmsError() const
 	return pixels > 0 ? std::sqrt(sum / double(pixels)) : 0.0;
 }
 
+bool RenderCounts::ErrorIsKnown() const
+{
+	return std::none_of(levels, levels + 64, [](const LevelChanges& of) { return of.pixels > 0.0 && of.changes == 0; });
+}
+
 bool RenderCounts::MayMissLight() const
 {
 	const double promised = 1.25, seen = RmsError();
@@ -174,6 +179,11 @@ std::string StatisticsText(const TiltLens& lens, const FocusCounts& focus, const
 		const double rms = denoised_rms < 0.0 ? sampled : std::min(sampled, denoised_rms);
 		Append(text, "Samples/Pixel:   min %u  mean %.2f  max %u   Camera Rays: %.0f\n", counts.min_samples,
 		       double(counts.samples) / double(counts.pixels), counts.max_samples, double(counts.rays));
+		if(!counts.ErrorIsKnown())
+		{
+			text += "Estimated Error: unknown, one sample a pixel does not tell\n";
+			return text;
+		}
 		const bool least = counts.MayMissLight();
 		Append(text, "Estimated Error: %s%.5f RMS of the picture (linear), %.2f of 255 levels\n", least ? ">= " : "", rms, 255.0 * rms);
 		if(least)

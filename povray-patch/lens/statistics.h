@@ -88,6 +88,9 @@ struct RenderCounts
 
 	RenderCounts& operator+=(const RenderCounts& o);
 
+	/// Whether pixels tell of their error: one sample that was compared with none does not.
+	bool ErrorIsKnown() const;
+
 	/// Estimated error of the picture: root of the mean over pixels, red, green and
 	/// blue of the squared error, in linear light clipped to 0..1. 0 without pixels.
 	double RmsError() const;

@@ -9,6 +9,10 @@
 #ifndef TILT_LENS_BOKEH_H
 #define TILT_LENS_BOKEH_H
 
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
 // frame.h must always be the first POV file included (pulls in platform config)
 #include "backend/frame.h"
 #include "backend/colour/colour.h"
@@ -32,11 +36,13 @@ inline pov::Colour BokehAt(const pov::PIGMENT *pigment, const PupilPoint& point,
 }
 
 /// What each colour is multiplied by so that the mean over the opening of the lens is 1: of
-/// 128 x 128 points placed as samples are. 0 for a colour that gets through nowhere.
-inline void MeasureBokehGain(const pov::PIGMENT *pigment, const TiltLens& lens, pov::TraceThreadData *thread, double *gain)
+/// 128 x 128 points placed as samples are. 0 for a colour that gets through nowhere. Returns whether colours
+/// are parted by it: whether one gets through elsewhere than another.
+inline bool MeasureBokehGain(const pov::PIGMENT *pigment, const TiltLens& lens, pov::TraceThreadData *thread, double *gain)
 {
 	const int n = 128;
 	double sum[3] = { 0.0, 0.0, 0.0 };
+	std::vector<pov::Colour> let;
 
 	for(int i = 0; i < n * n; i++)
 	{
@@ -45,9 +51,15 @@ inline void MeasureBokehGain(const pov::PIGMENT *pigment, const TiltLens& lens, 
 		const pov::Colour c = BokehAt(pigment, lens.square ? square : SquareToBlades(lens.blades, u, v), thread);
 		for(int k = 0; k < 3; k++)
 			sum[k] += c[k];
+		let.push_back(c);
 	}
 	for(int k = 0; k < 3; k++)
 		gain[k] = sum[k] > 0.0 ? n * n / sum[k] : 0.0;
+	// Colours are kept as float.
+	return std::any_of(let.begin(), let.end(), [&](const pov::Colour& c)
+	{
+		return std::fabs(c[0] * gain[0] - c[1] * gain[1]) > 1e-5 || std::fabs(c[1] * gain[1] - c[2] * gain[2]) > 1e-5;
+	});
 }
 
 }

@@ -35,6 +35,7 @@ struct CameraLens
 	boost::shared_ptr<DenoisedPicture> denoised; ///< where the scene asks for it, else null
 	std::shared_ptr<LensChannels> channels; ///< where the scene asks for them, else null
 	double bokeh_gain[3] = {};          ///< for red, green, blue: 1 over the mean of the bokeh pigment over the opening
+	bool bokeh_parts_colours = false;   ///< whether it lets one through where it stops another
 	boost::shared_ptr<ShownLabels> labels; ///< of `show focus`, else null
 	PilotRequest pilot;                 ///< what tiltcost asks for, instead of the picture
 	boost::shared_ptr<PilotQueue> pilot_queue; ///< its blocks

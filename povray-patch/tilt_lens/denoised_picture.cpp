@@ -58,9 +58,10 @@ void DenoisedPicture::Record(int x, int y, const SampleSums& sums)
 
 	const Colour mean = sums.Mean();
 	for(int c = 0; c < PictureChannels; c++)
+	{
 		noisy.mean[c][i] = mean[c];
-	for(int c = 0; c < 3; c++)
 		noisy.first[c][i] = part > 0 ? float(sums.FirstMean(c)) : mean[c];
+	}
 	noisy.count[i] = float(sums.count);
 	if(!recorded[i])
 		missing--;

@@ -234,7 +234,7 @@ void Parser::Measure_Tilt_Lens_Bokeh(Camera& New)
 {
 	Post_Pigment(New.Bokeh);
 	double *gain = New.Tilt_Lens.bokeh_gain;
-	tilt_lens::MeasureBokehGain(New.Bokeh, New.Tilt_Lens.lens, GetParserDataPtr(), gain);
+	New.Tilt_Lens.bokeh_parts_colours = tilt_lens::MeasureBokehGain(New.Bokeh, New.Tilt_Lens.lens, GetParserDataPtr(), gain);
 	if (!(gain[0] + gain[1] + gain[2] > 0.0))
 		Error("tilt_lens: the bokeh pigment is black all over the lens, <0, 0> to <1, 1>; no light gets through.");
 }

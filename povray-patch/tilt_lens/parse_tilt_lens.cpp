@@ -232,9 +232,11 @@ void Parser::Warn_Of_Idle_Tilt_Lens_Words(const Camera& New)
 	if (!idle.empty())
 		Warning(0, "tilt_lens: without an aperture everything is sharp, and this does nothing: %s.\n"
 		           "Give aperture_diameter or f_stop, or leave it out.", idle.c_str());
+	if (New.Tilt_Lens.spec.denoise && New.Tilt_Lens.Samples_Lens() && (New.Blur_Samples == 1))
+		Warning(0, "tilt_lens: denoise compares the halves of a pixel's samples, and blur_samples 1 has none: it does nothing.");
 	if (New.Tilt_Lens.spec.channels && (sceneData->defaultFileType != kPOVList_FileType_OpenEXR))
 		Warning(0, "tilt_lens: channels are written into OpenEXR files only: give +FE.");
-	if (sceneData->outputAlpha && (sceneData->defaultFileType != kPOVList_FileType_OpenEXR) && (lens.splits || lens.bokeh))
+	if (sceneData->outputAlpha && (sceneData->defaultFileType != kPOVList_FileType_OpenEXR) && (lens.splits || New.Tilt_Lens.bokeh_parts_colours))
 		Warning(0, "tilt_lens: colours that part at the edge of what is transparent are brighter than their alpha,\n"
 		           "which this file format clips. Write OpenEXR (+FE), or render without alpha (-UA).");
 }

@@ -13,6 +13,7 @@
 #include "backend/math/vector.h"
 #include "backend/render/tracepixel.h"
 #include "backend/parser/parse.h"
+#include "lens/neighbourhood.h"
 #include "lens/pilot.h"
 #include "backend/tilt_lens/pilot_queue.h"
 #include "backend/tilt_lens/sample_sums.h"
@@ -42,6 +43,26 @@ static void Append_To_Pilot_File(const std::string& file, const std::string& tex
 	std::ofstream(file.c_str(), std::ios::app) << text << std::flush;
 }
 
+/// What the renderer does with the first samples of a block of w x h pixels: a pixel costs it once.
+static void Judge_First_Pilot_Samples(vector<TilePixel>& block, int w, int h)
+{
+	const int channels = tilt_lens::SampleSums::Channels;
+	vector<float> means;
+	vector<tilt_lens::Uncertainty> uncertainty;
+
+	for(const TilePixel& pixel : block)
+	{
+		const Colour mean = pixel.sums.Mean();
+		for(int c = 0; c < channels; c++)
+			means.push_back(mean[c]);
+	}
+	for(const tilt_lens::Between& between : tilt_lens::BetweenNeighbours(means, w, h, channels, 1))
+		uncertainty.push_back(tilt_lens::ToUncertainty(between.most));
+	const tilt_lens::Neighbourhoods around(uncertainty, w, h);
+	for(size_t i = 0; i < block.size(); i++)
+		block[i].neighbourhood_variance = around.variance[i];
+}
+
 /// In place of TraceTiltLensTile: as many blocks of the pilot as begin in this tile, from
 /// anywhere in the picture, which itself stays black.
 void TracePixel::TraceTiltLensPilot(int left, int top, int right, int bottom, int width, int height, vector<Colour>& colours)
@@ -62,17 +83,26 @@ void TracePixel::TraceTiltLensPilotBlock(int x, int y, int width, int height)
 	const int w = min(PilotBlockSize, width - x), h = min(PilotBlockSize, height - y);
 	const int rays = camera.Tilt_Lens.lens.splits ? tilt_lens::Wavelengths : 1;     // a sample
 	vector<vector<PilotLevel> > pixels;
+	vector<TilePixel> tile;
 	const DBL start = Thread_Seconds();
 
 	for(int i = 0; i < w * h; i++)
 	{
-		TilePixel pixel(x + i % w, y + i / w, camera.Tilt_Lens.Seed());
+		tile.push_back(TilePixel(x + i % w, y + i / w, camera.Tilt_Lens.Seed()));
+		SampleTiltLensPixel(tile.back(), 1, width, height);
+	}
+	Judge_First_Pilot_Samples(tile, w, h);
+	const DBL first = Thread_Seconds() - start;
+
+	for(TilePixel& pixel : tile)
+	{
 		pixels.push_back(vector<PilotLevel>());
 		for(int n = 1; n <= request.samples; n *= 2)
 		{
-			SampleTiltLensPixel(pixel, n, width, height);
+			if(n > 1)
+				SampleTiltLensPixel(pixel, n, width, height);
 			const Colour mean = pixel.sums.Mean();
-			const PilotLevel level = { n, { mean.red(), mean.green(), mean.blue() }, n > 1 ? pixel.sums.Variance() : 0.0 };
+			const PilotLevel level = { n, { mean.red(), mean.green(), mean.blue(), mean.filter(), mean.transm() }, n > 1 ? pixel.sums.Variance() : 0.0 };
 			pixels.back().push_back(level);
 		}
 		threadData->tiltLensCounts.AddPixel(pixel.sums.count, pixel.sums.Changes());
@@ -80,7 +110,7 @@ void TracePixel::TraceTiltLensPilotBlock(int x, int y, int width, int height)
 		cooperate();
 	}
 	const tilt_lens::PilotSetting own = { camera.Blur_Samples_Min, camera.Blur_Samples, camera.Variance, camera.Confidence, camera.Tilt_Lens.spec.denoise };
-	Append_To_Pilot_File(request.file, tilt_lens::PilotText(x, y, w, h, Thread_Seconds() - start, own, pixels));
+	Append_To_Pilot_File(request.file, tilt_lens::PilotText(x, y, w, h, Thread_Seconds() - start, first, own, pixels));
 }
 
 /// For #fopen: what tiltcost tries is not to leave traces in the user's files.

@@ -43,6 +43,8 @@ struct SampleSums
 	/// Mean red, green and blue as they stood at the latest powers of two, latest first.
 	double earlier[ChangesKept + 1][3];
 	int earlier_counts[ChangesKept + 1];
+	/// Filter and transmit at the latest two of them.
+	double earlier_clear[2][2];
 
 	SampleSums() : count(0), withheld(0.0), stopped(0), brightest(0.0f), painted(false)
 	{
@@ -52,6 +54,8 @@ struct SampleSums
 			sum[i] = squares[i] = 0.0;
 		for(int j = 0; j <= ChangesKept; j++)
 			earlier_counts[j] = 0;
+		for(int i = 0; i < 2; i++)
+			earlier_clear[0][i] = earlier_clear[1][i] = 0.0;
 	}
 
 	void Add(const Colour& c)
@@ -102,21 +106,28 @@ struct SampleSums
 		earlier_counts[0] = count;
 		for(int i = 0; i < 3; i++)
 			earlier[0][i] = Light(i);
+		for(int i = 0; i < 2; i++)
+		{
+			earlier_clear[1][i] = earlier_clear[0][i];
+			earlier_clear[0][i] = Clear(3 + i);
+		}
 	}
 
 	/// The first part of the samples: as many as the last power of two below all of them.
 	/// 0 for a single sample.
 	int FirstPart() const { return earlier_counts[First()]; }
-	/// Mean of that part in a channel of red, green, blue.
-	double FirstMean(int channel) const { return earlier[First()][channel]; }
+	/// Mean of that part in a channel.
+	double FirstMean(int channel) const { return channel < 3 ? earlier[First()][channel] : earlier_clear[First()][channel - 3]; }
 	int First() const { return earlier_counts[0] < count ? 0 : 1; }
 
-	Colour Mean() const
+	/// Mean filter or transmit, of the light that arrived. Where none did: black, and nothing behind it.
+	double Clear(int i) const
 	{
 		const double arrived = count - withheld;
-		// No light arrived: black, and nothing behind it.
-		return Colour(Light(0), Light(1), Light(2), arrived > 0.0 ? sum[3] / arrived : 0.0, arrived > 0.0 ? sum[4] / arrived : 0.0);
+		return arrived > 0.0 ? sum[i] / arrived : 0.0;
 	}
+
+	Colour Mean() const { return Colour(Light(0), Light(1), Light(2), Clear(3), Clear(4)); }
 
 	/// The pixel's share in the estimate of the picture's error: squared changes over
 	/// the latest powers of two, averaged over red, green and blue.

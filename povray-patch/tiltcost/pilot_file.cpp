@@ -30,7 +30,7 @@ std::vector<PilotLevel> ParsePixel(const std::string& line)
 		level.samples = int(std::strtol(at, &end, 10));
 		if (end == at || level.samples != n)
 			return {};
-		for (double* value : {&level.mean[0], &level.mean[1], &level.mean[2], &level.variance})
+		for (double* value : {&level.mean[0], &level.mean[1], &level.mean[2], &level.mean[3], &level.mean[4], &level.variance})
 		{
 			at = end;
 			*value = std::strtod(at, &end);
@@ -55,7 +55,7 @@ std::vector<PilotBlock> ParsePilot(const std::string& text)
 	{
 		PilotBlock block;
 		std::istringstream words(line);
-		if (!(words >> word >> block.left >> block.top >> block.width >> block.height >> block.seconds) ||
+		if (!(words >> word >> block.left >> block.top >> block.width >> block.height >> block.seconds >> block.first_seconds) ||
 			word != "block" || block.width < 1 || block.height < 1)
 			throw tiltcal::Refused(fmt::format("the pilot render wrote '{:.40}' where a block should begin; do tiltcost and povray belong together?", line));
 		tilt_lens::PilotSetting own{};

@@ -18,6 +18,7 @@ struct PilotBlock
 {
 	int left = 0, top = 0, width = 0, height = 0;
 	double seconds = 0;     ///< CPU, for all samples of all pixels
+	double first_seconds = 0;   ///< of them, for the first of each, and what a pixel costs once
 	std::optional<tilt_lens::PilotSetting> own;     ///< what the scene says
 	/// Row by row; of a pixel the sums at 1, 2, 4, ... samples.
 	std::vector<std::vector<tilt_lens::PilotLevel>> pixels;

@@ -34,7 +34,7 @@ void Pilot::AddDenoised(const Block& block, const std::vector<size_t>& known, st
 	{
 		const auto& levels = block.pixels[i].levels;
 		picture.count[i] = float(std::size_t(1) << known[i]);
-		for (int c = 0; c < 3; ++c)
+		for (int c = 0; c < tilt_lens::PictureChannels; ++c)
 		{
 			picture.mean[c][i] = levels[known[i]].mean[c];
 			picture.first[c][i] = levels[known[i] > 0 ? known[i] - 1 : 0].mean[c];

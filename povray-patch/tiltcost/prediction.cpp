@@ -54,7 +54,8 @@ Pilot::Pilot(const std::vector<PilotBlock>& read)
 		block.width = from.width;
 		block.height = from.height;
 		samples = from.pixels[0].back().samples;
-		block.seconds_per_sample = from.seconds / (double(from.pixels.size()) * samples);
+		block.seconds_per_pixel = from.first_seconds / double(from.pixels.size());
+		block.seconds_per_sample = (from.seconds - from.first_seconds) / (double(from.pixels.size()) * std::max(samples - 1, 1));
 		for (const auto& levels : from.pixels)
 			block.pixels.push_back(Prepare(levels));
 		for (int i = 0; i < block.width * block.height; ++i)
@@ -80,8 +81,11 @@ Pilot::Pixel Pilot::Prepare(const std::vector<PilotLevel>& levels)
 
 	Pixel pixel;
 	for (size_t k = 0; k < levels.size(); ++k)
-		pixel.levels.push_back({{float(levels[k].mean[0]), float(levels[k].mean[1]), float(levels[k].mean[2])}, levels[k].variance,
+	{
+		const double* mean = levels[k].mean;
+		pixel.levels.push_back({{float(mean[0]), float(mean[1]), float(mean[2]), float(mean[3]), float(mean[4])}, levels[k].variance,
 			{means[LINEAR][k].SquaredDistance(means[LINEAR].back()), means[ENCODED][k].SquaredDistance(means[ENCODED].back())}});
+	}
 	for (int scale = 0; scale < SCALES; ++scale)
 	{
 		tilt_lens::LevelChanges& c = pixel.changes[scale];
@@ -111,8 +115,7 @@ bool Pilot::IsInside(const Block& block, int x, int y, int reach)
 	return (!wide || (x >= reach && x < block.width - reach)) && (!high || (y >= reach && y < block.height - reach));
 }
 
-/// What the first samples of a block's pixels differ by; nothing where they are too many to be compared. The pilot keeps no
-/// transparency, whose edges a render sees too.
+/// What the first samples of a block's pixels differ by; nothing where they are too many to be compared.
 std::vector<tilt_lens::Between> Pilot::CompareFirst(const Block& block, int first) const
 {
 	if (first >= tilt_lens::LeastOwnVariance)
@@ -120,7 +123,7 @@ std::vector<tilt_lens::Between> Pilot::CompareFirst(const Block& block, int firs
 	std::vector<float> means;
 	for (const Pixel& pixel : block.pixels)
 		means.insert(means.end(), std::begin(pixel.levels[Known(first)].mean), std::end(pixel.levels[Known(first)].mean));
-	return tilt_lens::BetweenNeighbours(means, block.width, block.height, 3, first);
+	return tilt_lens::BetweenNeighbours(means, block.width, block.height, tilt_lens::PictureChannels, first);
 }
 
 /// The level that each pixel of a block goes on to, as if the block were the picture.
@@ -183,7 +186,8 @@ std::vector<BlockCost> Pilot::BlockCosts(const Setting& setting) const
 		double samples_taken = 0;
 		for (const size_t level : LevelsOf(block, levels))
 			samples_taken += levels[level].samples;
-		costs.push_back({block.x, block.y, samples_taken / double(block.pixels.size()) * block.seconds_per_sample});
+		const double pixels = double(block.pixels.size());
+		costs.push_back({block.x, block.y, block.Seconds(pixels, samples_taken) / pixels});
 	}
 	return costs;
 }
@@ -204,14 +208,14 @@ Prediction Pilot::Predict(const Setting& setting, int part, int parts) const
 		if (parts > 1 && int(b) % parts == part)
 			continue;
 		const std::vector<size_t> chosen = LevelsOf(block, levels);
-		double taken = 0;
+		double taken = 0, inside = 0;
 		for (size_t i = 0; i < block.pixels.size(); ++i)
 		{
 			if (!IsInside(block, int(i) % block.width, int(i) / block.width))
 				continue;
 			Class& c = classes[chosen[i]];
 			c.pixels++;
-			pixels++;
+			inside++;
 			taken += levels[chosen[i]].samples;
 			for (int scale = 0; scale < SCALES; ++scale)
 			{
@@ -219,8 +223,9 @@ Prediction Pilot::Predict(const Setting& setting, int part, int parts) const
 				c.changes[scale] += block.pixels[i].changes[scale];
 			}
 		}
+		pixels += inside;
 		sum.samples_per_pixel += taken;
-		sum.seconds_per_pixel += taken * block.seconds_per_sample;
+		sum.seconds_per_pixel += block.Seconds(inside, taken);
 	}
 	for (size_t l = 0; l < levels.size(); ++l)
 		if (classes[l].pixels > 0)

@@ -16,6 +16,7 @@
 
 #include "lens/adaptive.h"
 #include "lens/convergence.h"
+#include "lens/denoise.h"
 #include "lens/neighbourhood.h"
 
 #include <string>
@@ -86,7 +87,7 @@ private:
 	/// A pixel at a power of two.
 	struct Level
 	{
-		float mean[3];                  ///< linear, not clipped
+		float mean[tilt_lens::PictureChannels]; ///< linear, not clipped
 		double variance;                ///< of a sample
 		double off[SCALES];             ///< squared distance from m(N), averaged over the channels
 	};
@@ -101,8 +102,11 @@ private:
 	{
 		double x, y;                    ///< its centre
 		int width, height;
-		double seconds_per_sample;
+		double seconds_per_pixel;       ///< for its first sample and what a pixel costs once
+		double seconds_per_sample;      ///< for each of the others
 		std::vector<Pixel> pixels;
+
+		double Seconds(double of_pixels, double of_samples) const { return of_pixels * seconds_per_pixel + (of_samples - of_pixels) * seconds_per_sample; }
 	};
 
 	/// Pixels that take the same number of samples.

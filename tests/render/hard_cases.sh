@@ -129,6 +129,12 @@ warnings)
 	warned fringes 'chromatic lateral 0.1, 0.1' '' '+UA +FN' "$fringes"
 	warned exr 'chromatic lateral 0.1, 0.1' '' '+UA +FE'
 	warned opaque 'chromatic lateral 0.1, 0.1' '' '+FN'
+	# A grey bokeh pigment parts no colours, nor does one that is of one colour everywhere.
+	warned coloured 'aperture_diameter 0.1' 'bokeh { pigment { gradient x color_map { [0 rgb <1, 0, 0>] [1 rgb <0, 0, 1>] } } }' '+UA +FN' "$fringes"
+	warned grey 'aperture_diameter 0.1' 'bokeh { pigment { gradient x color_map { [0 rgb 0] [1 rgb 1] } } }' '+UA +FN'
+	warned red 'aperture_diameter 0.1' 'bokeh { pigment { rgb <1, 0.5, 0.25> } }' '+UA +FN'
+	warned single 'denoise aperture_diameter 0.1' 'blur_samples 1' '' "tilt_lens: denoise compares the halves of a pixel's samples, and blur_samples 1 has none: it does nothing."
+	grep -q 'Estimated Error: unknown' single.exr.log || fail "one sample a pixel: $(grep 'Estimated Error' single.exr.log)"
 	# A second camera.
 	warned two 'aperture_diameter 0.1' '} camera { location 0 look_at z' '' 'More than one camera in scene. Ignoring previous camera(s).' 'The tilt_lens of the camera before is ignored with it.'
 	printf '%s\n' '#version 3.7; global_settings { assumed_gamma 1 } camera { location 0 } camera { tilt_lens { } location 0 look_at z }' > second.pov

@@ -95,6 +95,24 @@ TEST(Statistics, TextNamesTheFigures)
 	EXPECT_THAT(StatisticsText(Resolved(0, 0, 8, 0), {}, {}), HasSubstr("a pinhole"));
 }
 
+TEST(Statistics, OneSampleDoesNotTellItsError)
+{
+	RenderCounts c;
+	c.AddPixel(16, Halving(1e-6));
+	c.AddLight(16, {}, false);
+	EXPECT_TRUE(c.ErrorIsKnown());
+	LevelChanges alone;
+	alone.pixels = 1;
+	alone.changes = 0;
+	c.AddPixel(1, alone);
+	c.AddLight(1, {}, false);
+	EXPECT_FALSE(c.ErrorIsKnown());
+	const TiltLens lens = Resolved(60.0, 90.0, 8.0, 0.5);
+	const std::string text = StatisticsText(lens, CountFocus(lens, Camera, 8, 6, 0, 0, 7, 5), c);
+	EXPECT_THAT(text, HasSubstr("Estimated Error: unknown, one sample a pixel does not tell\n"));
+	EXPECT_THAT(text, testing::Not(HasSubstr("RMS")));
+}
+
 // Where pixels stopped early and the spread rests on single bright samples, the estimate is a bound.
 TEST(Statistics, EstimateIsABoundWhereLightMayBeMissed)
 {

@@ -38,7 +38,7 @@ std::string BlockText(int left, double seconds, int samples, const std::function
 			pixels[size_t(i)].push_back(level(i, k));
 			pixels[size_t(i)].back().samples = 1 << k;
 		}
-	return tilt_lens::PilotText(left, 0, Side, Side, seconds, {0, 16, 0.0001, 0.9, false}, pixels);
+	return tilt_lens::PilotText(left, 0, Side, Side, seconds, seconds / samples, {0, 16, 0.0001, 0.9, false}, pixels);
 }
 
 PilotLevel Grey(double mean, double variance) { return {1, {mean, mean, mean}, variance}; }
@@ -220,6 +220,32 @@ TEST(Prediction, JackknifeLeavesOutEveryTenth)
 	EXPECT_LT(spread.seconds, 0.8);
 	const Pilot one(ParsePilot(Flat(0, 1, 16, 0.5, 0)));
 	EXPECT_EQ(SpreadOf(one, machine, MakeRow(one, machine, Fixed(16))).error, 0);
+}
+
+// What a pixel costs once counts once: 3 us for the first of 16 samples, 1 us for each other.
+TEST(Prediction, FirstSamplesHaveATimeOfTheirOwn)
+{
+	const double pixels = Side * Side;
+	std::vector<std::vector<PilotLevel>> levels(size_t(pixels), { { 1, { 0.5, 0.5, 0.5 }, 0 }, { 2, { 0.5, 0.5, 0.5 }, 0 }, { 4, { 0.5, 0.5, 0.5 }, 0 } });
+	const Pilot pilot(ParsePilot(tilt_lens::PilotText(0, 0, Side, Side, pixels * 6e-6, pixels * 3e-6, {0, 16, 0.0001, 0.9, false}, levels)));
+	EXPECT_NEAR(pilot.Predict(Fixed(1)).seconds_per_pixel, 3e-6, 1e-15);
+	EXPECT_NEAR(pilot.Predict(Fixed(4)).seconds_per_pixel, 6e-6, 1e-15);
+	EXPECT_NEAR(pilot.BlockCosts(Fixed(10))[0].seconds_per_pixel, 12e-6, 1e-15);
+}
+
+// What the renderer sees of transparency tiltcost sees too: between black and nothing, pixels of one sample go on.
+TEST(Prediction, EdgesOfTransparencyTakeSamples)
+{
+	Setting few;
+	few.min = 1;
+	few.max = 4;
+	few.variance = 0.01;
+	const auto samples = [&](double transmit)
+	{
+		return Pilot(ParsePilot(BlockText(0, 1, 4, [=](int pixel, int) { return PilotLevel{ 1, { 0, 0, 0, 0, pixel % Side < Side / 2 ? 0 : transmit }, 0 }; }))).Predict(few).samples_per_pixel;
+	};
+	EXPECT_EQ(samples(0), 1);
+	EXPECT_GT(samples(1), 1.1);
 }
 
 // A grey field with independent noise of variance 0.01/n: denoise finds it; a checkerboard of single pixels it must leave.
