@@ -76,9 +76,12 @@ public:
 				fmt::format("Seed={}", seed), fmt::format("Denoise={}", denoise ? 1 : 0), std::string("Camera=1")})
 			words.push_back("Declare=Race_" + word);
 		RunPovray(povray, work, "scene.pov", "picture.exr", Width, Height, words);
-		const Picture picture = ReadExr((work / "picture.exr").string());
+		Picture picture = ReadExr((work / "picture.exr").string());
 		if (!AllFinite(picture))
 			throw std::runtime_error("a picture is not finite");
+		// Over white, so that what is transparent counts, too.
+		for (size_t i = 0; i < picture.rgb.size(); ++i)
+			picture.rgb[i] += 1 - picture.alpha[i / 3];
 		return picture;
 	}
 
