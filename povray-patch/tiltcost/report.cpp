@@ -25,10 +25,12 @@ std::string RowText(const Row& row, char mark)
 }
 
 /// How sure the predictions are, by the least sure of the rows.
-std::string SpreadText(const std::vector<Row>& rows)
+std::string SpreadText(const Report& report)
 {
+	if (report.blocks < LeastBlocksForSpread && report.blocks * std::pow(tilt_lens::PilotBlockSize, 2) < report.pilot.machine.pixels)
+		return fmt::format("Predicted from {} blocks, too few to say how surely: a longer --pilot-time traces more.\n", report.blocks);
 	Spread most;
-	for (const Row& row : rows)
+	for (const Row& row : report.rows)
 		most = {std::max(most.error, row.spread.error), std::max(most.denoised, row.spread.denoised), std::max(most.seconds, row.spread.seconds)};
 	if (most.error <= 0 && most.seconds <= 0)
 		return {};
@@ -91,7 +93,7 @@ std::string HeaderText(const Report& report)
 		tilt_lens::PilotBlockSize, report.samples,
 		DurationText(report.pilot.wall), report.range.Count() > 1 ? " of each frame" : "",
 		DurationText(machine.start_wall / report.range.Count()), DurationText(machine.start_cpu / report.range.Count()));
-	text += SpreadText(report.rows);
+	text += SpreadText(report);
 	if (log.radiosity)
 		text += "Radiosity: its pretrace counts as start; what is gathered later depends on where the rays go and is predicted less well.\n";
 	return text;

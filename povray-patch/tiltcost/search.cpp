@@ -227,8 +227,8 @@ size_t StopsPaying(const std::vector<Row>& rows, double levels)
 
 Spread SpreadOf(const Pilot& pilot, const Machine& machine, const Row& row)
 {
-	const int parts = 10;
-	if (pilot.Blocks() < 2 * parts)
+	const int parts = SpreadParts;
+	if (pilot.Blocks() < LeastBlocksForSpread)
 		return {};
 	std::vector<double> errors, denoised(parts, 0.0), seconds;
 	if (row.denoised_error > 0)

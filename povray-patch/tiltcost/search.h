@@ -84,6 +84,8 @@ std::vector<Row> TableRows(const std::vector<Row>& best, int count);
 /// Index of the first row below `levels` (of 255): where it stops paying. rows.size() for none.
 size_t StopsPaying(const std::vector<Row>& rows, double levels);
 
+const int SpreadParts = 10, LeastBlocksForSpread = 2 * SpreadParts;
+
 /// Of a row; with denoise where the row has its error. Nothing where the pilot has too few blocks to tell.
 Spread SpreadOf(const Pilot& pilot, const Machine& machine, const Row& row);
 
