@@ -4,11 +4,13 @@
 
 #include "lens/aberrations.h"
 #include "lens/angles.h"
+#include "model/pose_difference.h"
 #include "model/tilt_angles.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace tiltcal
@@ -115,6 +117,46 @@ void WidenByEachOther(const Solution& thin, RealLens& six, std::optional<RealLen
 	by_thin(six);
 }
 
+/// Where the plane of focus lies that stands for the real lenses near their axes; along the sensor's normal where the whole opening is sharpest. U by it.
+void WidenPlane(const std::vector<const RealLens*>& lenses, size_t s, StateLens& told)
+{
+	const auto widen = [](const std::vector<double>& others, double value, double& sigma)
+	{
+		Estimate number{ value, sigma };
+		Widen(others, number);
+		sigma = number.sigma;
+	};
+	widen(OfEach(lenses, [s](const RealLens& l) { return l.states[s].lens.q.x; }), told.q.x, told.q_sigma.x);
+	widen(OfEach(lenses, [s](const RealLens& l) { return l.states[s].lens.q.y; }), told.q.y, told.q_sigma.y);
+	widen(OfEach(lenses, [s](const RealLens& l) { return 1 / l.states[s].best_focus_mm; }), told.q.z, told.q_sigma.z);
+	TellFocusDistance(told);
+}
+
+/// Where the boards stand, and the lens centres of the states.
+void WidenPlaces(const std::vector<const RealLens*>& lenses, Geometry& told)
+{
+	for (size_t s = 0; s < told.states.size(); ++s)
+	{
+		StateGeometry& state = told.states[s];
+		for (size_t p = 0; p < state.poses.size(); ++p)
+			for (size_t k = 0; k < 6; ++k)
+			{
+				double farthest = 0;
+				for (const RealLens* lens : lenses)
+					if (p < lens->states[s].poses.size())
+						farthest = std::max(farthest, std::abs(FromPoseTo(state.poses[p], lens->states[s].poses[p])[k]));
+				state.pose_sigmas[p][k] = std::hypot(state.pose_sigmas[p][k], farthest);
+			}
+		if (s > 0 && told.shared_poses)
+			for (double Vec3<double>::* axis : { &Vec3<double>::x, &Vec3<double>::y, &Vec3<double>::z })
+			{
+				Estimate number{ state.lens_centre.*axis, state.lens_centre_sigma.*axis };
+				Widen(OfEach(lenses, [&](const RealLens& l) { return l.states[s].lens_centre_mm.*axis; }), number);
+				state.lens_centre_sigma.*axis = number.sigma;
+			}
+	}
+}
+
 }
 
 void WidenTilts(Calibration& c)
@@ -136,7 +178,6 @@ void WidenByRealLens(Calibration& c)
 	if (c.scene_lens && c.scene_lens->used)
 		lenses.push_back(&*c.scene_lens);
 	const std::vector<double> f = OfEach(lenses, [](const RealLens& l) { return l.focal_length_mm.value; });
-	const auto focus = [&](size_t s) { return OfEach(lenses, [s](const RealLens& l) { return l.states[s].best_focus_mm; }); };
 	// Untilted, where the real lens's exit pupil stands before the point that the thin lens's axis meets.
 	for (Geometry* told : { &c.geometry, &c.pinhole })
 		WidenPoint(OfEach(lenses, [](const RealLens& l) { return l.states[0].principal_point; }), told->states[0].principal_point, told->states[0].principal_point_sigma);
@@ -147,13 +188,23 @@ void WidenByRealLens(Calibration& c)
 		for (const RealLens* lens : lenses)
 			WidenStops(lens->stop_ratios, told->stop_ratios);
 		Widen(OfEach(lenses, [](const RealLens& l) { return l.states[0].image_distance_mm.value / l.pupil_magnification.value; }), told->w_mm);
-		Widen(focus(0), told->focus_distance);
 		for (size_t s = 0; s < told->states.size(); ++s)
 		{
 			Widen(f, told->states[s].focal_length);
-			Widen(focus(s), told->states[s].focus_distance);
+			WidenPlane(lenses, s, told->states[s]);
 		}
+		told->focus_distance.sigma = told->states[0].focus_distance.sigma;
 	}
+	for (Geometry* told : { &c.geometry, &c.pinhole })
+		WidenPlaces(lenses, *told);
+}
+
+void WidenPlacesByImageDistance(Calibration& c)
+{
+	for (const auto& [solution, geometry] : { std::pair{ &c.solution, &c.geometry }, std::pair{ &c.render, &c.pinhole } })
+		for (StateGeometry& state : geometry->states)
+			for (size_t p = 0; p < state.poses.size(); ++p)
+				state.pose_sigmas[p][5] = std::max(state.pose_sigmas[p][5], std::abs(state.poses[p][5]) * solution->w_mm.sigma / solution->w_mm.value);
 }
 
 }

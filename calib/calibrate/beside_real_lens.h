@@ -18,6 +18,9 @@ namespace tiltcal
 /// the fifth order shares with the third by the third, for closed loops through glass put theirs nearer to the truth (exit pupil, principal point, tilt).
 void WidenByRealLens(Calibration& c);
 
+/// What is seen of a board tells its distance over w: no distance of a board is known better than w, relatively. After w has its last sigma.
+void WidenPlacesByImageDistance(Calibration& c);
+
 /// The tilts that are told, those of third order, where the fifth predicts photographs left out better and puts them elsewhere. Before both are widened by WidenByRealLens.
 void WidenTilts(Calibration& c);
 

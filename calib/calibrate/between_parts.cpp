@@ -4,6 +4,7 @@
 
 #include "lens/angles.h"
 #include "lens/optics.h"
+#include "model/pose_difference.h"
 #include "model/thin_lens_of_real.h"
 #include "model/tilt_angles.h"
 #include "solve/half_of_edges.h"
@@ -26,14 +27,14 @@ struct Distance
 	double apart, scatter;
 };
 
-/// The farthest of the parts, beyond what it scatters, in quadrature to `sigma`. distance: of a part's solution from the whole.
+/// The farthest of the parts, beyond what it scatters, in quadrature to `sigma`. distance: of a part from the whole.
 template<typename Of>
 void Widen(const std::vector<PartAnswer>& parts, Of distance, double& sigma)
 {
 	double farthest = 0;
 	for (const PartAnswer& part : parts)
 	{
-		Distance d = distance(part.solution);
+		Distance d = distance(part);
 		d = { part.share * d.apart, part.own_scatter ? d.scatter : 0 };
 		// A focus at infinity is no distance to compare.
 		if (std::isfinite(d.apart) && std::isfinite(d.scatter))
@@ -42,9 +43,21 @@ void Widen(const std::vector<PartAnswer>& parts, Of distance, double& sigma)
 	sigma = std::sqrt(sigma * sigma + farthest);
 }
 
+/// The plane of focus itself, and U by it: one number has one sigma.
+void WidenPlane(const StateLens& whole, size_t state, const std::vector<PartAnswer>& parts, StateLens& told)
+{
+	for (double Vec3<double>::* axis : { &Vec3<double>::x, &Vec3<double>::y, &Vec3<double>::z })
+		Widen(parts, [&](const PartAnswer& part)
+		{
+			const StateLens& other = part.solution.states[state];
+			return Distance{ other.q.*axis - whole.q.*axis, other.q_sigma.*axis };
+		}, told.q_sigma.*axis);
+	TellFocusDistance(told);
+}
+
 void WidenTilt(const StateLens& whole, size_t state, const std::vector<PartAnswer>& parts, StateLens& told)
 {
-	const auto widen = [&](auto distance, double& sigma) { Widen(parts, [&](const Solution& part) { return distance(part.states[state]); }, sigma); };
+	const auto widen = [&](auto distance, double& sigma) { Widen(parts, [&](const PartAnswer& part) { return distance(part.solution.states[state]); }, sigma); };
 	for (Estimate StateLens::* angle : { &StateLens::lens_tilt, &StateLens::focal_plane_tilt })
 		widen([&](const StateLens& part) { return Distance{ DifferenceOfTilts(whole, part, angle).along, (part.*angle).sigma }; }, (told.*angle).sigma);
 	if (const double tilt = whole.lens_tilt.value; tilt != 0)
@@ -82,19 +95,37 @@ void WidenByParts(const Solution& whole, const std::vector<PartAnswer>& parts, S
 {
 	const auto widen = [&](auto number)
 	{
-		Widen(parts, [&](const Solution& part) { return Distance{ number(part).value - number(whole).value, number(part).sigma }; }, number(told).sigma);
+		Widen(parts, [&](const PartAnswer& part) { return Distance{ number(part.solution).value - number(whole).value, number(part.solution).sigma }; }, number(told).sigma);
 	};
 	widen([](auto& s) -> auto& { return s.w_mm; });
 	widen([](auto& s) -> auto& { return s.focal_length; });
 	widen([](auto& s) -> auto& { return s.aperture_diameter; });
-	widen([](auto& s) -> auto& { return s.focus_distance; });
 	for (size_t k = 0; k < told.stop_ratios.size(); ++k)
 		widen([k](auto& s) -> auto& { return s.stop_ratios[k]; });
 	for (size_t k = 0; k < told.states.size(); ++k)
 	{
 		widen([k](auto& s) -> auto& { return s.states[k].focal_length; });
-		widen([k](auto& s) -> auto& { return s.states[k].focus_distance; });
+		WidenPlane(whole.states[k], k, parts, told.states[k]);
 		WidenTilt(whole.states[k], k, parts, told.states[k]);
+	}
+	if (!told.states.empty())
+		told.focus_distance.sigma = told.states[0].focus_distance.sigma;
+}
+
+void WidenPlacesByParts(const Geometry& whole, const std::vector<PartAnswer>& parts, Geometry& told)
+{
+	for (size_t s = 0; s < told.states.size(); ++s)
+	{
+		StateGeometry& state = told.states[s];
+		const StateGeometry& own = whole.states[s];
+		const auto widen = [&](auto distance, double& sigma) { Widen(parts, [&](const PartAnswer& part) { return distance(part.geometry.states[s]); }, sigma); };
+		for (size_t axis = 0; axis < 2; ++axis)
+			widen([&](const StateGeometry& part) { return Distance{ part.principal_point[axis] - own.principal_point[axis], part.principal_point_sigma[axis] }; }, state.principal_point_sigma[axis]);
+		for (double Vec3<double>::* axis : { &Vec3<double>::x, &Vec3<double>::y, &Vec3<double>::z })
+			widen([&](const StateGeometry& part) { return Distance{ part.lens_centre.*axis - own.lens_centre.*axis, part.lens_centre_sigma.*axis }; }, state.lens_centre_sigma.*axis);
+		for (size_t p = 0; p < state.poses.size(); ++p)
+			for (size_t k = 0; k < 6; ++k)
+				widen([&](const StateGeometry& part) { return Distance{ FromPoseTo(own.poses[p], part.poses[p])[k], part.pose_sigmas[p][k] }; }, state.pose_sigmas[p][k]);
 	}
 }
 

@@ -31,6 +31,9 @@ std::vector<PartAnswer> SolveParts(const Calibration& calibration);
 /// scatters itself. `covariance` and `sigma_by_photographs` stay what scatters.
 void WidenByParts(const Solution& whole, const std::vector<PartAnswer>& parts, Solution& told);
 
+/// The same of where boards, lens centres and principal points are.
+void WidenPlacesByParts(const Geometry& whole, const std::vector<PartAnswer>& parts, Geometry& told);
+
 /// A thin lens does near its axis what real ones of any pupil magnification do, each with an f of its own (model/thin_lens_of_real.h): the sigma of f is
 /// widened by what is not known of that. Those of photographic lenses lie between some 0.5 (telephoto) and 1.7 (wide angle, retrofocus), about 1.
 void WidenByPupils(Solution& told);

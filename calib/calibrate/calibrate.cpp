@@ -126,6 +126,16 @@ void FindRealLens(const Task& through_rims, const CalibrateOptions& o, Calibrati
 	o.log.Info(fmt::format("the fifth order {} for scenes: photographs left out are predicted to {:.2f} of what is usual with it, to {:.2f} by six numbers", scene.used ? "taken" : "not taken", scene.held_out, scene.held_out_thin));
 }
 
+/// All that is told of a thin lens, and of where it stood. `parts` begin at c.geometry.
+void WidenByParts(const Solution& whole, const std::vector<PartAnswer>& parts, Calibration& c)
+{
+	for (Solution* told : { &c.solution, &c.render })
+		WidenByParts(whole, parts, *told);
+	const Geometry geometry = c.geometry;
+	for (Geometry* told : { &c.geometry, &c.pinhole })
+		WidenPlacesByParts(geometry, parts, *told);
+}
+
 /// Sigmas of a thin lens whose photographs are unsharp by themselves.
 void WidenByFloor(const CalibrateOptions& o, Calibration& c)
 {
@@ -133,8 +143,7 @@ void WidenByFloor(const CalibrateOptions& o, Calibration& c)
 		return;
 	const Solution whole = c.solution;
 	if (const std::optional<PartAnswer> other = SolveWithGaussianFloor(c))
-		for (Solution* told : { &c.solution, &c.render })
-			WidenByParts(whole, { *other }, *told);
+		WidenByParts(whole, { *other }, c);
 }
 
 /// Sigmas of a thin lens whose photographs misfit by more than noise, in blur or in places.
@@ -146,8 +155,7 @@ void WidenWhereGlassShows(const CalibrateOptions& o, Calibration& c)
 	const Solution whole = c.solution;
 	c.thin_as_it_scatters = whole.states;
 	const std::vector<PartAnswer> parts = SolveParts(c);
-	for (Solution* told : { &c.solution, &c.render })
-		WidenByParts(whole, parts, *told);
+	WidenByParts(whole, parts, c);
 }
 
 /// The sigma of a thin lens's f, however well it fits: no photograph tells it from a real lens with pupils of two sizes.
@@ -222,6 +230,7 @@ Calibration Solve(const Task& measured, const CalibrateOptions& o)
 	c.verdict = Judge(c);
 	// Last: such a lens is graded by its tilts.
 	WidenByRealLens(c);
+	WidenPlacesByImageDistance(c);
 	return c;
 }
 

@@ -28,6 +28,9 @@ const double BENT = 0.004;
 /// An exponent within 1 % of another is not told from it: one standard deviation of what is anywhere between.
 const double UNTOLD = 0.01 / 1.7320508;
 const double CERTAIN = 3;   // sigmas
+/// Of two states, whose sigma has some six degrees of freedom: once in 400 by chance, of Student's t.
+const double CERTAIN_OF_STATES = 5;
+const size_t LEAST_FREEDOM = 4;
 /// Sharpening is seen where the blur is narrower than so many px; told from wider ones, as where the focus is at infinity, it would be an
 /// error of the edge's shape: 0.04 px of 13 are 1 px².
 const double SHARP = 4;
@@ -95,6 +98,27 @@ std::optional<Estimate> ExponentOf(const Calibration& c, const Estimate& bend)
 	return std::isfinite(e + sigma) ? std::optional(Estimate{ e, sigma }) : std::nullopt;
 }
 
+/// Of each state's photographs, which scatter alike in all: by that, photographs about the mean of their state, each as certain as its weight.
+std::vector<Estimate> BendOfStates(const std::vector<size_t>& state, const std::vector<double>& slopes, const std::vector<double>& weights)
+{
+	const size_t states = state.empty() ? 0 : state.back() + 1;
+	std::vector<double> sum(states, 0), all(states, 0);
+	for (size_t k = 0; k < slopes.size(); ++k)
+	{
+		sum[state[k]] += weights[k] * slopes[k];
+		all[state[k]] += weights[k];
+	}
+	if (slopes.size() < states + LEAST_FREEDOM || std::any_of(all.begin(), all.end(), [](double w) { return !(w > 0); }))
+		return {};
+	double squares = 0;
+	for (size_t k = 0; k < slopes.size(); ++k)
+		squares += weights[k] * std::pow(slopes[k] - sum[state[k]] / all[state[k]], 2);
+	std::vector<Estimate> bends;
+	for (size_t s = 0; s < states; ++s)
+		bends.push_back({ sum[s] / all[s], std::sqrt(squares / double(slopes.size() - states) / all[s]) });
+	return bends;
+}
+
 int SharpEdges(const Task& task)
 {
 	int sharp = 0;
@@ -112,6 +136,7 @@ LightCheck CheckLight(const Calibration& c)
 	const std::vector<double> shifts = ShiftsOf(c);
 	auto shift = shifts.begin();
 	std::vector<double> slopes, weights;
+	std::vector<size_t> state;
 	double edges = 0, clipped = 0;
 	for (size_t s = 0; s < c.task.states.size(); ++s)
 		for (size_t p = 0; p < c.task.states[s].photos.size(); ++p)
@@ -122,6 +147,7 @@ LightCheck CheckLight(const Calibration& c)
 			double weight = 0;
 			slopes.push_back(SlopeOf(c, s, p, shift, weight));
 			weights.push_back(weight);
+			state.push_back(s);
 		}
 	light.clipped_share = edges > 0 ? clipped / edges : 0;
 	double sum = 0, all = 0, squares = 0;
@@ -138,12 +164,28 @@ LightCheck CheckLight(const Calibration& c)
 		squares += std::pow(weights[k] / all * (slopes[k] - light.bend.value), 2);
 	light.bend.sigma = std::sqrt(squares * double(slopes.size()) / double(slopes.size() - 1));
 	light.exponent = ExponentOf(c, light.bend);
+	light.bend_of_states = BendOfStates(state, slopes, weights);
 	return light;
 }
 
 bool SharpeningIsSeen(const LightCheck& light) { return light.sharpening.value > SHARPENED && light.sharpening.value > CERTAIN * light.sharpening.sigma; }
 
 bool BendIsSeen(const LightCheck& light) { return std::abs(light.bend.value) > BENT && std::abs(light.bend.value) > CERTAIN * light.bend.sigma; }
+
+std::vector<Remark> JudgeLightOfStates(const Calibration& c)
+{
+	const std::vector<Estimate>& bends = c.light.bend_of_states;
+	if (bends.empty() || c.light.clipped_share > SOME_CLIPPED)
+		return {};
+	const auto [low, high] = std::minmax_element(bends.begin(), bends.end(), [](const Estimate& a, const Estimate& b) { return a.value < b.value; });
+	const double apart = high->value - low->value, sigma = std::hypot(high->sigma, low->sigma);
+	if (!(apart > 2 * BENT && apart > CERTAIN_OF_STATES * sigma))
+		return {};
+	const auto name = [&](auto bend) { return c.task.states[size_t(bend - bends.begin())].name; };
+	return { { apart > 10 * BENT ? Grade::POOR : Grade::FAIR, fmt::format("blurred edges lie {:.3f} +- {:.3f} of their blur's radius to the bright side in {} and {:.3f} +- {:.3f} in {} (less than 0: to the dark side): the photographs of the states "
+		"were not developed alike. A tone curve that the camera or the raw converter chooses for each does this, and biases blur and aperture of each in another way. Develop all with one linear curve",
+		high->value, high->sigma, name(high), low->value, low->sigma, name(low)) } };
+}
 
 bool LightMayExplain(const Calibration& c, const PhotographCheck& photograph)
 {

@@ -24,6 +24,9 @@ bool LightMayExplain(const Calibration& calibration, const PhotographCheck& phot
 /// What it says that a user must know, with grades.
 std::vector<Remark> JudgeLight(const LightCheck& light);
 
+/// Whether the states' photographs were not developed alike: in the mean of all that may cancel.
+std::vector<Remark> JudgeLightOfStates(const Calibration& calibration);
+
 }
 
 #endif

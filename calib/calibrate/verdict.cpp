@@ -14,6 +14,7 @@
 #include "model/tilt_angles.h"
 
 #include <fmt/format.h>
+#include "lens/angles.h"
 #include "lens/field_curvature.h"
 
 #include <algorithm>
@@ -26,6 +27,8 @@ namespace tiltcal
 namespace
 {
 
+const double DEGREES = tilt_lens::DegreesPerRadian;
+
 class Judgement
 {
 public:
@@ -37,6 +40,7 @@ public:
 			Say(Grade::POOR, "the joint refinement did not converge: geometry and blur are as solved one after the other, and each one's sigma does not know of the other's");
 		// Light first: it may be why photographs and an untilted lens look as if they were not what they are.
 		AddRemarks(JudgeLight(c.light));
+		AddRemarks(JudgeLightOfStates(c));
 		const bool spoiled = verdict.grade == Grade::POOR;
 		bool odd = !c.refined;
 		for (const std::vector<Remark>& remarks : { JudgePhotographs(c), JudgeBoard(c), JudgeUntilted(c) })
@@ -50,7 +54,10 @@ public:
 		for (size_t s = 0; s < c.solution.states.size(); ++s)
 		{
 			if (s > 0)
+			{
 				Tilt(s);
+				OneImageDistance(s);
+			}
 			BothSides(s);
 			AddRemarks(JudgeLeftOut(c, s));
 			BlurAgainstGeometry(s);
@@ -101,6 +108,21 @@ private:
 				: "photograph the board in more poses, inclined so that it is sharp in one part and blurred in another"));
 		if (c.solution.states[s].chosen_by_power)
 			Say(Grade::POOR, fmt::format("state {}: two planes of focus fit the blur, and the one that keeps the focal length was taken: photograph more poses", StateName(s)));
+	}
+
+	/// A lens that is tilted and not touched keeps f and w, so that the blur of every state, at the w that all share, tells one f. It moves to where a pivot takes it,
+	/// which changes w by no more than 1 - cos of the tilt where that is no farther from the pupil than the sensor is, and pupils of two sizes change f by less. A real lens has a w for every state.
+	void OneImageDistance(size_t s)
+	{
+		if (c.RealLensIsUsed())
+			return;
+		const StateLens &first = c.solution.states[0], &own = c.solution.states[s];
+		const double f = first.focal_length.value, apart = std::abs(own.focal_length.value / f - 1), sigma = f * std::hypot(own.q_sigma.z, first.q_sigma.z);
+		const double turned = 2 * (1 - std::cos(own.lens_tilt.value / DEGREES)), least = 0.001;
+		if (apart > std::max(least, turned) + 4 * sigma)
+			Say(Grade::POOR, fmt::format("state {}: its blur tells a focal length of {:.4g} mm, that of {} {:.4g} mm: {:.2f} +- {:.2f} % apart, and tilting the lens explains no more than {:.2f} %. Was the focus, or "
+				"the zoom, touched between the two? They are taken to have one image distance, and all that is told is off where they have not: photograph a board in {} again as the lens stands now",
+				StateName(s), own.focal_length.value, StateName(0), f, 100 * apart, 100 * sigma, 100 * turned, StateName(0)));
 	}
 
 	/// Blur does not show its sign: with one side of the focus only, focus and aperture hide behind each other.

@@ -101,7 +101,7 @@ std::vector<Remark> JudgeUntilted(const Calibration& c)
 	const bool light = SharpeningIsSeen(c.light) || BendIsSeen(c.light);
 	return { { size > TILT_LARGE ? Grade::POOR : Grade::FAIR, fmt::format("state {}: its blur says that the lens is tilted by {:.2f} +- {:.2f} degrees towards {:.0f}, {}", c.task.states[0].name, size, tilt.sigma,
 		c.untilted_check.tilt_direction.value + (tilt.value < 0 ? 180 : 0), light ? "which need not be so: what was done to the light changes blur by itself. Mend the light first; what is told then is the lens's"
-		: "and the tilts of the others are off by about as much: set the lens straight, or give `untilted_free`") } };
+		: "and it is taken to be straight: its own tilt, the principal point and the focus distance are off by that, those of the others hardly. Set the lens straight, or give `untilted_free`") } };
 }
 
 }

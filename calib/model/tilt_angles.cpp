@@ -98,4 +98,10 @@ void FillStateLens(const Vec3<double>& q, double w_mm, const Eigen::Matrix4d& co
 	lens.focal_length = { a.focal_length, sigma(3) };
 }
 
+void TellFocusDistance(StateLens& lens)
+{
+	if (lens.q.z != 0)
+		lens.focus_distance.sigma = lens.q_sigma.z / (lens.q.z * lens.q.z);
+}
+
 }

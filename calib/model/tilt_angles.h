@@ -33,6 +33,9 @@ TiltDifference DifferenceOfTilts(const StateLens& from, const StateLens& to, Est
 /// By the vector lens equation n/f = q + e_z/w (optics.h). q in 1/mm, w in mm.
 TiltAngles AnglesFromPlane(const Vec3<double>& q, double w_mm);
 
+/// The sigma of the focus distance as that of 1/U says; where the focus is at infinity it stays.
+void TellFocusDistance(StateLens& lens);
+
 /// Fills q, its sigmas and every derived estimate of `lens`. `covariance` is that of
 /// (q_x, q_y, q_z, w); first-order propagation by central differences.
 void FillStateLens(const Vec3<double>& q, double w_mm, const Eigen::Matrix4d& covariance, StateLens& lens);

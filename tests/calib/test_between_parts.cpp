@@ -24,6 +24,9 @@ Solution Told()
 	s.aperture_diameter = { 16, 0.1 };
 	s.focus_distance = { 600, 2 };
 	s.states.resize(2);
+	s.states[0].q = { 0, 0, 1 / 600.0 };
+	s.states[0].q_sigma = { 0, 0, 2 / (600.0 * 600) };
+	s.states[0].focus_distance = s.focus_distance;
 	s.states[1].lens_tilt = { 5, 0.02 };
 	s.states[1].tilt_direction = { 0, 0.1 };
 	s.states[1].focus_distance = { INFINITY, 1 };
@@ -45,7 +48,11 @@ TEST(BetweenParts, SigmasHoldHowFarPartsDisagree)
 	inner.solution.states[1].lens_tilt = { -5.1, 0.06 };
 	inner.solution.states[1].tilt_direction = { 180, 0.1 };
 	outer.solution.states[1].tilt_direction = { 1, 0.2 };
-	outer.solution.states[1].focus_distance = { 700, 1 };
+	// A plane through infinity moves to the other side of it.
+	outer.solution.states[1].q = { 0, 1e-4, -2e-5 };
+	outer.solution.states[1].q_sigma = { 0, 6e-5, 0 };
+	inner.solution.states[0].q.z = 1 / 600.0 + 5e-6;
+	inner.solution.states[0].q_sigma.z = 3e-6;
 	Solution told = whole;
 	WidenByParts(whole, { inner, outer }, told);
 	EXPECT_NEAR(told.w_mm.sigma, std::sqrt(0.03 * 0.03 + 0.4 * 0.4 - 0.3 * 0.3), 1e-9);
@@ -54,8 +61,42 @@ TEST(BetweenParts, SigmasHoldHowFarPartsDisagree)
 	EXPECT_NEAR(told.states[1].lens_tilt.sigma, std::sqrt(0.02 * 0.02 + 0.1 * 0.1 - 0.06 * 0.06), 1e-6);
 	// An arc of one degree and its sine differ by 5e-5 of it.
 	EXPECT_NEAR(told.states[1].tilt_direction.sigma, std::sqrt(0.1 * 0.1 + 1 - 0.2 * 0.2), 1e-3);
-	EXPECT_EQ(told.states[1].focus_distance.sigma, 1);
+	EXPECT_NEAR(told.states[1].q_sigma.y, 8e-5, 1e-12);
+	EXPECT_NEAR(told.states[1].q_sigma.z, 2e-5, 1e-12);
+	EXPECT_EQ(told.states[1].focus_distance.sigma, 1) << "infinity";
+	// 1/U and U are one number.
+	EXPECT_NEAR(told.states[0].q_sigma.z, std::hypot(2 / (600.0 * 600), 4e-6), 1e-12);
+	EXPECT_NEAR(told.focus_distance.sigma, told.states[0].q_sigma.z * 600 * 600, 1e-9);
+	EXPECT_EQ(told.states[0].focus_distance.sigma, told.focus_distance.sigma);
 	EXPECT_EQ(told.w_mm.value, 48);
+}
+
+TEST(BetweenParts, PlacesAreToldAsTheLensIs)
+{
+	Geometry whole;
+	whole.states.resize(1);
+	StateGeometry& own = whole.states[0];
+	// A board upside down: its rotation vector may be told either way round.
+	own.poses = { { 0, 0, M_PI - 0.01, 10, 20, 600 } };
+	own.pose_sigmas = { { 1e-4, 1e-4, 1e-4, 0.1, 0.1, 0.3 } };
+	own.principal_point_sigma = { 0.3, 0.4 };
+	own.lens_centre_sigma = { 0, 0, 0.1 };
+	PartAnswer part{ whole, Told() };
+	part.geometry.states[0].poses = { { 0, 0, -M_PI + 0.01, 10, 20, 600.5 } };
+	part.geometry.states[0].pose_sigmas = { { 0, 0, 0, 0, 0, 0.4 } };
+	part.geometry.states[0].principal_point = { 0.6, 0 };
+	part.geometry.states[0].principal_point_sigma = { 0.3, 0 };
+	part.geometry.states[0].lens_centre.z = 0.2;
+	part.geometry.states[0].lens_centre_sigma.z = 0;
+	Geometry told = whole;
+	WidenPlacesByParts(whole, { part }, told);
+	const StateGeometry& wide = told.states[0];
+	EXPECT_NEAR(wide.pose_sigmas[0][2], std::hypot(1e-4, 0.02), 1e-9);
+	EXPECT_NEAR(wide.pose_sigmas[0][3], 0.1, 1e-12);
+	EXPECT_NEAR(wide.pose_sigmas[0][5], std::hypot(0.3, 0.3), 1e-9);
+	EXPECT_NEAR(wide.principal_point_sigma[0], std::sqrt(0.09 + 0.36 - 0.09), 1e-12);
+	EXPECT_NEAR(wide.principal_point_sigma[1], 0.4, 1e-12);
+	EXPECT_NEAR(wide.lens_centre_sigma.z, std::hypot(0.1, 0.2), 1e-12);
 }
 
 // Parts of what one thin lens made agree with the whole: they differ by less than they scatter themselves. Of twelve numbers one is beyond

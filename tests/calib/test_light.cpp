@@ -49,6 +49,7 @@ TEST(Light, LinearLightIsGood)
 	EXPECT_LT(std::abs(c.light.bend.value), std::max(3 * c.light.bend.sigma, 0.004));
 	EXPECT_EQ(c.light.clipped_share, 0);
 	EXPECT_TRUE(JudgeLight(c.light).empty());
+	EXPECT_TRUE(JudgeLightOfStates(c).empty());
 	// By the real lens's places where that is the answer: here 0.03 of each radius to the bright side.
 	Calibration real = c;
 	real.real_lens.emplace();
@@ -101,6 +102,23 @@ TEST(Light, TheExponentOfAToneCurveIsFound)
 	EXPECT_NEAR(c.light.exponent->value, 0.8, 3 * c.light.exponent->sigma);
 	const auto said = std::find_if(c.verdict.remarks.begin(), c.verdict.remarks.end(), [](const Remark& r) { return r.text.find("light to the power 0.") != std::string::npos; });
 	EXPECT_NE(said, c.verdict.remarks.end());
+}
+
+// A curve chosen for each state, whose bends cancel in the mean of all photographs. A power of 1 % bends by 0.004, so that these are some 0.15 apart.
+TEST(Light, StatesThatWereDevelopedApartAreSaid)
+{
+	const Negatives& n = Photographs();
+	const std::string folder = testing::TempDir() + "light-apart-";
+	std::vector<StateFiles> files{ DevelopAll(n, LightOf("power-0.8"), 1, folder + "dark")[0], DevelopAll(n, LightOf("power-1.2"), 1, folder + "bright")[1] };
+	const Answer answer = CalibrateFiles(n, LightOf("power-0.8"), files);
+	ASSERT_EQ(answer.refusal, "");
+	const Calibration& c = answer.calibration;
+	ASSERT_EQ(c.light.bend_of_states.size(), 2u);
+	EXPECT_NEAR(c.light.bend_of_states[1].value - c.light.bend_of_states[0].value, 0.15, 0.08);
+	const std::vector<Remark> remarks = JudgeLightOfStates(c);
+	ASSERT_EQ(remarks.size(), 1u);
+	EXPECT_NE(remarks[0].text.find("were not developed alike"), std::string::npos);
+	EXPECT_EQ(c.verdict.grade, Grade::POOR);
 }
 
 TEST(Light, APowerIsFoundByTheShiftItMakes)

@@ -60,7 +60,9 @@ TEST(OnePhotograph, OfTheUntiltedStateIsNamedWhereTheAnswerHangsOnIt)
 			const Calibration c = Calibrate(ThreeEach(seed, 0.01), asked);
 			// Where f ties all states together, one of six moves the answer too little to be seen.
 			if (model != Model::RIGID)
+			{
 				EXPECT_THAT(c.verdict.remarks, Says("state untilted: without untilted-"));
+			}
 			EXPECT_GT(c.verdict.grade, Grade::GOOD);
 		}
 }

@@ -330,8 +330,13 @@ TEST(BesideRealLens, SigmasHoldHowFarTheLensesDisagree)
 	c.solution.aperture_diameter = { 16, 0.1 };
 	c.solution.focus_distance = { 600, 2 };
 	c.solution.states.resize(2);
+	c.solution.states[0].q = { 0, 0, 1 / 600.0 };
+	c.solution.states[0].q_sigma = { 0, 0, 2 / (600.0 * 600) };
+	c.solution.states[0].focus_distance = c.solution.focus_distance;
 	c.solution.states[1].focus_distance = { INFINITY, 1 };
 	c.geometry.states.resize(1);
+	c.geometry.states[0].poses = { { 0, 0, 0, 0, 0, 600 } };
+	c.geometry.states[0].pose_sigmas = { { 0, 0, 0, 0, 0, 0.3 } };
 	c.geometry.states[0].principal_point = { 900, 600 };
 	c.geometry.states[0].principal_point_sigma = { 0.3, 0.4 };
 	c.pinhole = c.geometry;
@@ -343,6 +348,7 @@ TEST(BesideRealLens, SigmasHoldHowFarTheLensesDisagree)
 	six.states.resize(2);
 	six.states[0].image_distance_mm = { 52.36, 0 };
 	six.states[0].best_focus_mm = 601.5;
+	six.states[0].poses = { { 0, 0.001, 0, 0, 0, 600.4 } };
 	six.states[0].principal_point = { 900.4, 600 };
 	six.states[1].best_focus_mm = -2000;
 	c.real_lens = six;
@@ -357,8 +363,17 @@ TEST(BesideRealLens, SigmasHoldHowFarTheLensesDisagree)
 	EXPECT_NEAR(c.solution.focal_length.sigma, std::hypot(0.03, 0.08), 1e-12);
 	EXPECT_NEAR(c.solution.w_mm.sigma, std::hypot(0.3, 0.4), 1e-9);
 	EXPECT_NEAR(c.solution.aperture_diameter.sigma, 0.1, 1e-12);
-	EXPECT_NEAR(c.solution.focus_distance.sigma, 2.5, 1e-9);
+	// By 1/U, which is one number with U: 1/600 - 1/601.5.
+	EXPECT_NEAR(c.solution.focus_distance.sigma, std::hypot(2, 1.5 * 600 / 601.5), 1e-9);
+	EXPECT_NEAR(c.solution.states[0].q_sigma.z * 600 * 600, c.solution.focus_distance.sigma, 1e-9);
 	EXPECT_EQ(c.solution.states[1].focus_distance.sigma, 1);
+	EXPECT_NEAR(c.solution.states[1].q_sigma.z, 1 / 2000.0, 1e-12) << "beyond infinity is as far from infinity as before it";
+	EXPECT_NEAR(c.geometry.states[0].pose_sigmas[0][5], 0.5, 1e-12);
+	EXPECT_NEAR(c.geometry.states[0].pose_sigmas[0][1], 0.001, 1e-12);
+	// A board's distance is no better known than w.
+	c.render = c.solution;
+	WidenPlacesByImageDistance(c);
+	EXPECT_NEAR(c.geometry.states[0].pose_sigmas[0][5], 600 * c.solution.w_mm.sigma / 48, 1e-9);
 	EXPECT_EQ(c.solution.focal_length.value, 44.8);
 	EXPECT_NEAR(c.geometry.states[0].principal_point_sigma[0], 0.5, 1e-12);
 	EXPECT_EQ(c.geometry.states[0].principal_point_sigma[1], 0.4);

@@ -24,6 +24,7 @@ struct LightCheck
 	Estimate sharpening;        ///< px^2: how much smaller squared blur diameters are than blur can make them
 	/// How far blurred edges lie to the bright side of where the camera puts them, over their blur's radius: 0 in linear light.
 	Estimate bend;
+	std::vector<Estimate> bend_of_states;   ///< the same of each state; empty: too few photographs
 	std::optional<Estimate> exponent;   ///< values that were this power of light would make this bend; none: no power would, or nothing is known
 };
 
