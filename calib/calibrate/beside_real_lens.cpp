@@ -193,7 +193,8 @@ void WidenByRealLens(Calibration& c)
 			Widen(f, told->states[s].focal_length);
 			WidenPlane(lenses, s, told->states[s]);
 		}
-		told->focus_distance.sigma = told->states[0].focus_distance.sigma;
+		if (!told->states.empty())
+			told->focus_distance.sigma = told->states[0].focus_distance.sigma;
 	}
 	for (Geometry* told : { &c.geometry, &c.pinhole })
 		WidenPlaces(lenses, *told);

@@ -121,7 +121,7 @@ private:
 		const double turned = 2 * (1 - std::cos(own.lens_tilt.value / DEGREES)), least = 0.001;
 		if (apart > std::max(least, turned) + 4 * sigma)
 			Say(Grade::POOR, fmt::format("state {}: its blur tells a focal length of {:.4g} mm, that of {} {:.4g} mm: {:.2f} +- {:.2f} % apart, and tilting the lens explains no more than {:.2f} %. Was the focus, or "
-				"the zoom, touched between the two? They are taken to have one image distance, and all that is told is off where they have not: photograph a board in {} again as the lens stands now",
+				"the zoom, touched between the two? They are taken to have one image distance, and all that is told is off where they have not: photograph {} again with the lens as it stands now",
 				StateName(s), own.focal_length.value, StateName(0), f, 100 * apart, 100 * sigma, 100 * turned, StateName(0)));
 	}
 
