@@ -102,9 +102,10 @@ void CompleteTable(const Pilot& pilot, Report& report)
 	for (auto* rows : {&report.rows, &report.own})
 		for (Row& row : *rows)
 		{
+			std::vector<double> left_out;
 			if (row.setting.max <= pilot.Samples())
-				row.denoised_error = pilot.PredictDenoised(row.setting);
-			row.spread = SpreadOf(pilot, report.pilot.machine, row);
+				row.denoised_error = pilot.PredictDenoised(row.setting, &left_out, SpreadParts);
+			row.spread = SpreadOf(pilot, report.pilot.machine, row.setting, left_out);
 		}
 	report.denoise_seconds = DenoiseSecondsPerPixel() * report.pilot.machine.pixels;
 }

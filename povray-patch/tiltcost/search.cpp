@@ -225,17 +225,15 @@ size_t StopsPaying(const std::vector<Row>& rows, double levels)
 	return i;
 }
 
-Spread SpreadOf(const Pilot& pilot, const Machine& machine, const Row& row)
+Spread SpreadOf(const Pilot& pilot, const Machine& machine, const Setting& setting, const std::vector<double>& denoised)
 {
 	const int parts = SpreadParts;
 	if (pilot.Blocks() < LeastBlocksForSpread)
 		return {};
-	std::vector<double> errors, denoised(parts, 0.0), seconds;
-	if (row.denoised_error > 0)
-		pilot.PredictDenoised(row.setting, &denoised, parts);
+	std::vector<double> errors, seconds;
 	for (int part = 0; part < parts; ++part)
 	{
-		const Prediction p = pilot.Predict(row.setting, part, parts);
+		const Prediction p = pilot.Predict(setting, part, parts);
 		errors.push_back(p.error);
 		seconds.push_back(machine.start_cpu + p.seconds_per_pixel * machine.pixels);
 	}

@@ -86,8 +86,8 @@ size_t StopsPaying(const std::vector<Row>& rows, double levels);
 
 const int SpreadParts = 10, LeastBlocksForSpread = 2 * SpreadParts;
 
-/// Of a row; with denoise where the row has its error. Nothing where the pilot has too few blocks to tell.
-Spread SpreadOf(const Pilot& pilot, const Machine& machine, const Row& row);
+/// Of a setting; with denoise where its errors without each of SpreadParts parts are given (Pilot::PredictDenoised). Nothing where the pilot has too few blocks to tell.
+Spread SpreadOf(const Pilot& pilot, const Machine& machine, const Setting& setting, const std::vector<double>& denoised = {});
 
 }
 

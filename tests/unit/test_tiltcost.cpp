@@ -215,11 +215,11 @@ TEST(Prediction, JackknifeLeavesOutEveryTenth)
 	EXPECT_NEAR(pilot.Predict(Fixed(16)).seconds_per_pixel, 16e-6 * 1.9, 1e-12);
 	// Two outlying blocks of twenty: the spread is neither nothing nor everything.
 	const Machine machine{1e6, 0, 0, 1};
-	const Spread spread = SpreadOf(pilot, machine, MakeRow(pilot, machine, Fixed(16)));
+	const Spread spread = SpreadOf(pilot, machine, Fixed(16));
 	EXPECT_GT(spread.seconds, 0.2);
 	EXPECT_LT(spread.seconds, 0.8);
 	const Pilot one(ParsePilot(Flat(0, 1, 16, 0.5, 0)));
-	EXPECT_EQ(SpreadOf(one, machine, MakeRow(one, machine, Fixed(16))).error, 0);
+	EXPECT_EQ(SpreadOf(one, machine, Fixed(16)).error, 0);
 }
 
 // What a pixel costs once counts once: 3 us for the first of 16 samples, 1 us for each other.
@@ -300,16 +300,16 @@ TEST(Prediction, DenoisedByTheMiddleOfBlocksIsTheErrorOfAll)
 	const Pilot pilot(ParsePilot(text));
 	const Machine machine{1e6, 0, 0, 1};
 	Row row = MakeRow(pilot, machine, Fixed(16));
-	row.denoised_error = pilot.PredictDenoised(row.setting);
+	std::vector<double> left_out;
+	row.denoised_error = pilot.PredictDenoised(row.setting, &left_out, SpreadParts);
 	// 1280 pixels tell of a variance to 4 %; denoise finds by chance what it may take in some.
 	EXPECT_NEAR(row.denoised_error, row.predicted.error, 0.1 * row.predicted.error);
 	// One part of ten has nine times the variance: errors are 1 without it and sqrt(17 / 9) without another, by which one standard deviation is 0.252. Two blocks tell of
 	// their variance to 6 % (128 pixels, of one colour).
-	const Spread spread = SpreadOf(pilot, machine, row);
+	const Spread spread = SpreadOf(pilot, machine, row.setting, left_out);
 	EXPECT_NEAR(spread.error, 0.252, 0.06);
 	EXPECT_NEAR(spread.denoised, 0.252, 0.06);
-	row.denoised_error = 0;
-	EXPECT_EQ(SpreadOf(pilot, machine, row).denoised, 0) << "it was not asked for";
+	EXPECT_EQ(SpreadOf(pilot, machine, row.setting).denoised, 0) << "it was not asked for";
 }
 
 TEST(Search, RowsScaleToThePicture)
