@@ -19,15 +19,17 @@ namespace tiltcal
 namespace
 {
 
-/// `told` widened by the farthest of `others`; a focus at infinity is no distance to compare.
-void Widen(const std::vector<double>& others, Estimate& told)
+/// `sigma` of `value` widened by the farthest of `others`; a focus at infinity is no distance to compare.
+void Widen(const std::vector<double>& others, double value, double& sigma)
 {
 	double farthest = 0;
 	for (const double other : others)
-		if (std::isfinite(other) && std::isfinite(told.value))
-			farthest = std::max(farthest, std::abs(other - told.value));
-	told.sigma = std::hypot(told.sigma, farthest);
+		if (std::isfinite(other) && std::isfinite(value))
+			farthest = std::max(farthest, std::abs(other - value));
+	sigma = std::hypot(sigma, farthest);
 }
+
+void Widen(const std::vector<double>& others, Estimate& told) { Widen(others, told.value, told.sigma); }
 
 template<typename Number>
 auto OfEach(const std::vector<const RealLens*>& lenses, Number number)
@@ -45,9 +47,7 @@ void WidenPoint(const std::vector<Point>& others, const Point& value, Point& sig
 		std::vector<double> along;
 		for (const Point& other : others)
 			along.push_back(other[axis]);
-		Estimate told{ value[axis], sigma[axis] };
-		Widen(along, told);
-		sigma[axis] = told.sigma;
+		Widen(along, value[axis], sigma[axis]);
 	}
 }
 
@@ -120,15 +120,9 @@ void WidenByEachOther(const Solution& thin, RealLens& six, std::optional<RealLen
 /// Where the plane of focus lies that stands for the real lenses near their axes; along the sensor's normal where the whole opening is sharpest. U by it.
 void WidenPlane(const std::vector<const RealLens*>& lenses, size_t s, StateLens& told)
 {
-	const auto widen = [](const std::vector<double>& others, double value, double& sigma)
-	{
-		Estimate number{ value, sigma };
-		Widen(others, number);
-		sigma = number.sigma;
-	};
-	widen(OfEach(lenses, [s](const RealLens& l) { return l.states[s].lens.q.x; }), told.q.x, told.q_sigma.x);
-	widen(OfEach(lenses, [s](const RealLens& l) { return l.states[s].lens.q.y; }), told.q.y, told.q_sigma.y);
-	widen(OfEach(lenses, [s](const RealLens& l) { return 1 / l.states[s].best_focus_mm; }), told.q.z, told.q_sigma.z);
+	Widen(OfEach(lenses, [s](const RealLens& l) { return l.states[s].lens.q.x; }), told.q.x, told.q_sigma.x);
+	Widen(OfEach(lenses, [s](const RealLens& l) { return l.states[s].lens.q.y; }), told.q.y, told.q_sigma.y);
+	Widen(OfEach(lenses, [s](const RealLens& l) { return 1 / l.states[s].best_focus_mm; }), told.q.z, told.q_sigma.z);
 	TellFocusDistance(told);
 }
 
@@ -149,11 +143,7 @@ void WidenPlaces(const std::vector<const RealLens*>& lenses, Geometry& told)
 			}
 		if (s > 0 && told.shared_poses)
 			for (double Vec3<double>::* axis : { &Vec3<double>::x, &Vec3<double>::y, &Vec3<double>::z })
-			{
-				Estimate number{ state.lens_centre.*axis, state.lens_centre_sigma.*axis };
-				Widen(OfEach(lenses, [&](const RealLens& l) { return l.states[s].lens_centre_mm.*axis; }), number);
-				state.lens_centre_sigma.*axis = number.sigma;
-			}
+				Widen(OfEach(lenses, [&](const RealLens& l) { return l.states[s].lens_centre_mm.*axis; }), state.lens_centre.*axis, state.lens_centre_sigma.*axis);
 	}
 }
 
