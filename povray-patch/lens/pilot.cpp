@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -34,26 +35,34 @@ bool PilotMayWrite()
 
 std::vector<int> PilotBlocks(const PilotRequest& request, int width, int height)
 {
-	const int columns = (width + PilotBlockSize - 1) / PilotBlockSize;
-	const int rows = (height + PilotBlockSize - 1) / PilotBlockSize;
-	const int all = columns * rows;
+	return PilotBlocks(request, width, height, 0, 0, width - 1, height - 1);
+}
+
+std::vector<int> PilotBlocks(const PilotRequest& request, int width, int height, int left, int top, int right, int bottom)
+{
+	const int across = (width + PilotBlockSize - 1) / PilotBlockSize;
+	const auto first = [](int from, int to) { return std::min((from + PilotBlockSize - 1) / PilotBlockSize, to / PilotBlockSize); };
+	const int first_column = first(left, right), first_row = first(top, bottom);
+	const int columns = right / PilotBlockSize - first_column + 1, rows = bottom / PilotBlockSize - first_row + 1;
+	const int all = (width > 0) && (height > 0) ? columns * rows : 0;
 	std::vector<int> blocks;
 	std::vector<bool> chosen(size_t(all), false);
-	const auto choose = [&](int block)
+	const auto choose = [&](int column, int row)
 	{
-		if(!chosen[size_t(block)])
-			blocks.push_back(block);
-		chosen[size_t(block)] = true;
+		const size_t block = size_t(row * columns + column);
+		if(!chosen[block])
+			blocks.push_back((first_row + row) * across + first_column + column);
+		chosen[block] = true;
 	};
 
 	// Steps of 1/p and 1/p^2, p^3 = p + 1.
 	for(int i = 0; (i < request.blocks) && (all > 0); i++)
 	{
 		const double x = std::fmod(0.5 + i * 0.7548776662466927, 1.0), y = std::fmod(0.5 + i * 0.5698402909980532, 1.0);
-		choose(int(y * rows) * columns + int(x * columns));
+		choose(int(x * columns), int(y * rows));
 	}
 	for(int block = 0; (request.blocks >= all) && (block < all); block++)
-		choose(block);
+		choose(block % columns, block / columns);
 	return blocks;
 }
 

@@ -56,6 +56,9 @@ bool PilotMayWrite();
 /// asked for where two fall together.
 std::vector<int> PilotBlocks(const PilotRequest& request, int width, int height);
 
+/// The same of those that begin in left..right, top..bottom (inclusive), or of the one that holds its corner where none does.
+std::vector<int> PilotBlocks(const PilotRequest& request, int width, int height, int left, int top, int right, int bottom);
+
 /// The sums of one pixel at one power of two.
 struct PilotLevel
 {

@@ -153,6 +153,12 @@ double Percent(uint64_t part, uint64_t all)
 	return all > 0 ? 100.0 * double(part) / double(all) : 0.0;
 }
 
+/// Of pixels with a single sample denoise knows no error: it is what the comparison with their neighbours says.
+double WithSingleSamples(double denoised_rms, const RenderCounts& counts)
+{
+	return std::hypot(denoised_rms, std::sqrt(counts.levels[0].SumOfVariances() / double(counts.pixels)));
+}
+
 }
 
 std::string StatisticsText(const TiltLens& lens, const FocusCounts& focus, const RenderCounts& counts, double denoised_rms)
@@ -176,7 +182,7 @@ std::string StatisticsText(const TiltLens& lens, const FocusCounts& focus, const
 	{
 		const double sampled = counts.RmsError();
 		// Denoising is not expected to add error.
-		const double rms = denoised_rms < 0.0 ? sampled : std::min(sampled, denoised_rms);
+		const double rms = denoised_rms < 0.0 ? sampled : std::min(sampled, WithSingleSamples(denoised_rms, counts));
 		Append(text, "Samples/Pixel:   min %u  mean %.2f  max %u   Camera Rays: %.0f\n", counts.min_samples,
 		       double(counts.samples) / double(counts.pixels), counts.max_samples, double(counts.rays));
 		if(!counts.ErrorIsKnown())

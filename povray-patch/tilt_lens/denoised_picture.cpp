@@ -53,7 +53,7 @@ void DenoisedPicture::Extend(int& left, int& top, int& right, int& bottom) const
 
 void DenoisedPicture::Record(int x, int y, const SampleSums& sums)
 {
-	const size_t i = size_t(y - extended.top) * noisy.width + (x - extended.left);
+	const size_t i = Index(x, y);
 	const int part = sums.FirstPart();
 
 	const Colour mean = sums.Mean();
@@ -127,7 +127,7 @@ void DenoisedPicture::MakeBand(size_t band, boost::mutex::scoped_lock& lock)
 
 double DenoisedPicture::Denoised(int x, int y, float *channels)
 {
-	const size_t i = size_t(y - extended.top) * noisy.width + (x - extended.left);
+	const size_t i = Index(x, y);
 
 	for(int c = 0; c < PictureChannels; c++)
 		channels[c] = denoised[c][i];

@@ -46,6 +46,9 @@ class DenoisedPicture
 		/// blue). Only of rows that were made.
 		double Denoised(int x, int y, float *channels);
 
+		/// Whether that error says anything: one sample has no halves to be told by.
+		bool KnowsError(int x, int y) const { return noisy.count[Index(x, y)] > 1.0f; }
+
 		/// Denoised has been called: the second pass has begun. Needs no lock.
 		bool IsShown() const { return shown; }
 
@@ -58,6 +61,7 @@ class DenoisedPicture
 		enum class Band : char { Waits, IsMade, IsDone };
 		void MakeBand(size_t band, boost::mutex::scoped_lock& lock);
 		size_t NextBand(size_t wanted) const;
+		size_t Index(int x, int y) const { return size_t(y - extended.top) * noisy.width + (x - extended.left); }
 
 		struct Rectangle { int left, top, right, bottom; };
 		Rectangle part, extended;           // rendered; with what it depends on

@@ -132,18 +132,10 @@ PilotQueue::PilotQueue(const PilotRequest& asked) :
 
 void PilotQueue::Begin(int width, int height, int left, int top, int right, int bottom)
 {
-	const std::vector<int> all = PilotBlocks(request, width, height);
-
 	columns = (width + PilotBlockSize - 1) / PilotBlockSize;
-	blocks.clear();
+	blocks = PilotBlocks(request, width, height, left, top, right, bottom);
 	next = 0;
 	begun = -1.0;
-	for(size_t i = 0; i < all.size(); i++)
-	{
-		const int x = all[i] % columns * PilotBlockSize, y = all[i] / columns * PilotBlockSize;
-		if((x >= left) && (x <= right) && (y >= top) && (y <= bottom))
-			blocks.push_back(all[i]);
-	}
 }
 
 double PilotQueue::Seconds()

@@ -161,7 +161,7 @@ struct SampleSums
 		const int i = sum[0] >= sum[1] && sum[0] >= sum[2] ? 0 : sum[1] >= sum[2] ? 1 : 2;
 		const double mean = sum[i] / count, above = brightest - mean, variance = Variance();
 		const bool rare = above * above > 2.0 * std::log(double(count)) * variance, too_bright = (first < LeastOwnVariance) && (brightest > 1.0f);
-		if(!(variance > 0.0) || !(rare || too_bright))
+		if(!(variance > 0.0) || !(above > 0.0) || !(rare || too_bright))
 			return RareLight();
 		// As of bright samples that are alike among dark ones that are, a part p of all.
 		const double odds = variance * (count - 1) / (above * above * count), p = odds / (1.0 + odds);

@@ -106,7 +106,7 @@ bool TracePixel::GiveDenoisedTile(int left, int top, int right, int bottom, vect
 		{
 			const DBL error = picture.Denoised(x, y, c);
 			colours.push_back(Colour(c[0], c[1], c[2], c[3], c[4]));
-			if(camera.Tilt_Lens.Records())
+			if(camera.Tilt_Lens.Records() && picture.KnowsError(x, y))
 				camera.Tilt_Lens.channels->SetError(x, y, error);
 		}
 	return true;

@@ -6,9 +6,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <set>
 #include <sstream>
+#include <tuple>
+#include <utility>
 
 namespace tiltcost
 {
@@ -76,6 +79,18 @@ std::vector<PilotBlock> ParsePilot(const std::string& text)
 		blocks.push_back(std::move(block));
 	}
 	return blocks;
+}
+
+void ThinOut(size_t count, std::vector<PilotBlock>& blocks)
+{
+	std::sort(blocks.begin(), blocks.end(), [](const PilotBlock& a, const PilotBlock& b) { return std::tie(a.top, a.left) < std::tie(b.top, b.left); });
+	const size_t all = blocks.size();
+	if (count >= all)
+		return;
+	std::vector<PilotBlock> kept;
+	for (size_t k = 0; k < count; ++k)
+		kept.push_back(std::move(blocks[(2 * k + 1) * all / (2 * count)]));
+	blocks = std::move(kept);
 }
 
 double TraceSeconds(const std::vector<PilotBlock>& blocks)

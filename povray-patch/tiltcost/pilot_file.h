@@ -29,6 +29,9 @@ struct PilotBlock
 /// else, and when a block comes twice: more than one frame was rendered.
 std::vector<PilotBlock> ParsePilot(const std::string& text);
 
+/// Leaves `count` of the blocks or all, spread over them as they lie in the picture: a pilot's file has them as they were done, the dear ones last.
+void ThinOut(size_t count, std::vector<PilotBlock>& blocks);
+
 /// CPU seconds of all blocks.
 double TraceSeconds(const std::vector<PilotBlock>& blocks);
 

@@ -142,16 +142,6 @@ PilotRun PilotRenders::Run(const PilotPlan& plan, double seconds, const std::str
 	return run;
 }
 
-/// Of an option such as +SF12 the last that stands there; 0 for none.
-int LastNumberOf(const std::vector<std::string>& options, const char* word)
-{
-	int number = 0;
-	for (const std::string& option : options)
-		if (option.size() > 3 && (option[0] == '+' || option[0] == '-') && std::toupper(option[1]) == word[0] && std::toupper(option[2]) == word[1])
-			number = std::atoi(option.c_str() + 3);
-	return number;
-}
-
 FrameRange PilotRenders::Frames()
 {
 	const std::string log = folder.File("frames");
@@ -168,17 +158,11 @@ FrameRange PilotRenders::Frames()
 		throw tiltcal::Refused(fmt::format("{} is no animation of several frames, and --frames asks for one; give +KFI1 +KFF24, or leave it out", job.scene));
 	if (read.frame_step > 1)
 		throw tiltcal::Refused(fmt::format("{} has a Frame_Step of {}; --frames does not know which frames those are", job.scene, read.frame_step));
-	FrameRange range = {read.first_frame, read.first_frame + read.rendered_frames - 1};
-	if (range.last != read.last_frame)
-	{
-		// Which part of the animation is on the command line, or nowhere that POV-Ray tells of.
-		range.first = std::max(read.first_frame, LastNumberOf(job.options, "SF"));
-		range.last = range.first + read.rendered_frames - 1;
-		if (LastNumberOf(job.options, "SF") == 0 && LastNumberOf(job.options, "EF") == 0)
-			throw tiltcal::Refused(fmt::format("{} renders {} of {} frames; say on the command line which, +SFn +EFm", job.scene,
-				read.rendered_frames, read.last_frame - read.first_frame + 1));
-	}
-	return range;
+	const std::optional<FrameRange> range = RenderedFrames(read, job.options);
+	if (!range)
+		throw tiltcal::Refused(fmt::format("{} renders {} of {} frames; say on the command line which, +SFn +EFm, by their numbers", job.scene,
+			read.rendered_frames, read.last_frame - read.first_frame + 1));
+	return *range;
 }
 
 /// What is left of the time for the pilots, after tiny ones: the processors may be busy with other work, or fewer than threads.
@@ -310,7 +294,7 @@ FilmRun RunFilmPilots(const Job& job, const tiltcal::TemporaryFolder& folder)
 		least = std::min(least, film.runs[i].blocks.size());
 	}
 	for (PilotRun& run : film.runs)
-		run.blocks.resize(least);
+		ThinOut(least, run.blocks);
 	return film;
 }
 

@@ -83,6 +83,9 @@ void CheckPilotRender(const Job& job, const tiltcal::ProcessResult& result, cons
 
 RenderLog ReadRenderLog(const std::string& log);
 
+/// Which frames POV-Ray renders that said so and was given these options; none where only a part of an animation is, and no option says by number which.
+std::optional<FrameRange> RenderedFrames(const RenderLog& log, const std::vector<std::string>& options);
+
 /// POV-Ray's own error lines, or its last ones where it names no error.
 std::string ErrorLines(const std::string& log);
 

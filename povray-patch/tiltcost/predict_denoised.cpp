@@ -5,6 +5,7 @@
 #include "tiltcost/prediction.h"
 
 #include "lens/denoise.h"
+#include "program/process.h"
 
 #include <algorithm>
 #include <cmath>
@@ -83,6 +84,7 @@ double Pilot::PredictDenoised(const Setting& setting, std::vector<double>* left_
 	std::vector<std::vector<DenoisedClass>> classes(parts, std::vector<DenoisedClass>(count));
 	for (size_t b = 0; b < blocks.size(); ++b)
 	{
+		tiltcal::CheckInterrupt();     // some seconds for a table
 		std::vector<size_t> known;
 		for (const size_t level : LevelsOf(blocks[b], levels))
 			known.push_back(Known(levels[level].samples));

@@ -6,6 +6,8 @@
 
 #include "lens/pilot.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <cstdlib>
 #include <sstream>
@@ -30,6 +32,46 @@ std::vector<std::string> Lines(const std::string& log)
 	return lines;
 }
 
+/// Whether `text` begins with these letters, large or small.
+bool BeginsWith(const std::string& text, const std::string& letters)
+{
+	return text.size() >= letters.size() && std::equal(letters.begin(), letters.end(), text.begin(), [](char a, char b) { return std::tolower(a) == std::tolower(b); });
+}
+
+/// The number of a frame that the last of the options +`letters`N and `word`N says; none where none does, or it says a part of the animation (0.5).
+std::optional<int> FrameNamed(const std::vector<std::string>& options, const std::string& letters, const std::string& word)
+{
+	std::optional<int> number;
+	for (const std::string& option : options)
+		for (const std::string& name : {"+" + letters, "-" + letters, word})
+			if (BeginsWith(option, name))
+			{
+				char* end = nullptr;
+				const long said = std::strtol(option.c_str() + name.size(), &end, 10);
+				number = *end == '\0' && said > 0 ? std::optional<int>(int(said)) : std::nullopt;
+			}
+	return number;
+}
+
+}
+
+std::optional<FrameRange> RenderedFrames(const RenderLog& log, const std::vector<std::string>& options)
+{
+	const int others = log.rendered_frames - 1;
+	if (log.first_frame + others == log.last_frame)
+		return FrameRange{log.first_frame, log.last_frame};
+	// Which part is on the command line, or nowhere that POV-Ray tells of: an ini file may say where it begins, and these options where it ends.
+	if (const std::optional<int> last = FrameNamed(options, "EF", "Subset_End_Frame="))
+	{
+		const int end = std::min(*last, log.last_frame);
+		return FrameRange{end - others, end};
+	}
+	if (const std::optional<int> first = FrameNamed(options, "SF", "Subset_Start_Frame="))
+	{
+		const int begin = std::max(*first, log.first_frame);
+		return FrameRange{begin, begin + others};
+	}
+	return {};
 }
 
 RenderLog ReadRenderLog(const std::string& log)

@@ -154,19 +154,11 @@ std::optional<Row> BestDenoisedWithin(const Pilot& pilot, const Machine& machine
 
 std::optional<Row> CheapestDenoised(const Pilot& pilot, const Machine& machine, const std::vector<Row>& best, double error)
 {
-	// Errors fall along the rows, denoised ones nearly so: halve the interval, then go on to the first that holds.
-	size_t low = 0, high = best.size();
-	while (low < high)
-	{
-		const size_t middle = (low + high) / 2;
-		if (pilot.PredictDenoised(best[middle].setting) <= error)
-			high = middle;
-		else
-			low = middle + 1;
-	}
-	if (low == best.size() || best[low].setting.max > pilot.Samples())
-		return {};
-	return WithDenoise(pilot, machine, best[low]);
+	for (const Row& row : best)
+		if (row.setting.max <= pilot.Samples())
+			if (const Row denoised = WithDenoise(pilot, machine, row); denoised.denoised_error <= error)
+				return denoised;
+	return {};
 }
 
 std::optional<Row> CheapestBelow(const std::vector<Row>& best, const Figure& figure, double bound)

@@ -303,3 +303,22 @@ TEST(Pilot, BlocksAreSpreadOverThePicture)
 	EXPECT_EQ(std::set<int>(all.begin(), all.end()).size(), 14u);
 	EXPECT_EQ(all.size(), 14u);
 }
+
+// As many in a part of the picture as in the whole; a part in which no block begins has the one that holds its corner.
+TEST(Pilot, BlocksOfAPart)
+{
+	PilotRequest r;
+	r.blocks = 12;
+	const int side = PilotBlockSize, columns = 120;
+	const auto part = PilotBlocks(r, columns * side, 68 * side, 99, 99, 299, 299);
+	EXPECT_EQ(std::set<int>(part.begin(), part.end()).size(), 12u);
+	for(int block : part)
+	{
+		const int x = block % columns * side, y = block / columns * side;
+		EXPECT_TRUE((x >= 99) && (x <= 299) && (y >= 99) && (y <= 299)) << x << " " << y;
+	}
+	EXPECT_EQ(PilotBlocks(r, columns * side, 68 * side, 5 * side + 1, 4 * side + 4, 5 * side + 1, 4 * side + 11), std::vector<int>{ 4 * columns + 5 });
+	r.blocks = 1000;
+	const auto all = PilotBlocks(r, columns * side, 68 * side, side - 1, side, 3 * side, 2 * side - 1);
+	EXPECT_EQ(std::set<int>(all.begin(), all.end()), (std::set<int>{ columns + 1, columns + 2, columns + 3 }));
+}

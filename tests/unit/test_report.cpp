@@ -113,6 +113,22 @@ TEST(Statistics, OneSampleDoesNotTellItsError)
 	EXPECT_THAT(text, testing::Not(HasSubstr("RMS")));
 }
 
+// denoise has no halves of one sample to judge by: what the neighbours say of such pixels stays.
+TEST(Statistics, DenoiseKnowsNothingOfSingleSamples)
+{
+	RenderCounts c;
+	c.AddPixel(16, Halving(1e-6));
+	LevelChanges alone;
+	alone.pixels = 1;
+	alone.changes = 1;
+	alone.change[0] = 4e-6;
+	c.AddPixel(1, alone);
+	const TiltLens lens = Resolved(60.0, 90.0, 8.0, 0.5);
+	// sqrt((1e-6 + 4e-6) / 2), of which denoise takes the first.
+	EXPECT_THAT(StatisticsText(lens, CountFocus(lens, Camera, 8, 6, 0, 0, 7, 5), c), HasSubstr("Estimated Error: 0.00158 RMS"));
+	EXPECT_THAT(StatisticsText(lens, CountFocus(lens, Camera, 8, 6, 0, 0, 7, 5), c, 0.0), HasSubstr("Estimated Error: 0.00141 RMS"));
+}
+
 // Where pixels stopped early and the spread rests on single bright samples, the estimate is a bound.
 TEST(Statistics, EstimateIsABoundWhereLightMayBeMissed)
 {
