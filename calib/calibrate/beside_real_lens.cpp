@@ -182,6 +182,7 @@ void WidenByRealLens(Calibration& c)
 		{
 			Widen(f, told->states[s].focal_length);
 			WidenPlane(lenses, s, told->states[s]);
+			WidenTilt(c.real_lens->states[s].lens, 1, told->states[s]);
 		}
 		if (!told->states.empty())
 			told->focus_distance.sigma = told->states[0].focus_distance.sigma;

@@ -47,6 +47,7 @@ struct Measured
 	std::optional<MeasuredPhotograph> photograph;   ///< none: `why`
 	PackedPicture picture;
 	std::string why;
+	std::string unfit;   ///< why it was left out beside the others that are there; when these go it may fit
 	std::optional<std::chrono::steady_clock::time_point> again;   ///< look once more then
 };
 
@@ -111,7 +112,7 @@ private:
 			else
 			{
 				Tell(at->first + ": is gone");
-				changed = changed || at->second.photograph;
+				changed = changed || (at->second.photograph && at->second.unfit.empty());
 				at = measured.erase(at);
 			}
 		return changed;
@@ -164,13 +165,15 @@ private:
 				try
 				{
 					task.Add(s, *at->second.photograph);
+					at->second.unfit.clear();
 					out.packed[task.StateOf(s)].push_back(&at->second.picture);
 					++out.photographs;
 				}
 				catch (const Error& e)
 				{
-					at->second.photograph.reset();
-					Tell(fmt::format("skipped: {}", e.what()));
+					if (at->second.unfit != e.what())
+						Tell(fmt::format("skipped: {}", e.what()));
+					at->second.unfit = e.what();
 				}
 			}
 		out.task = task.Get();

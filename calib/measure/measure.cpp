@@ -226,6 +226,9 @@ void MeasureEdges(const cv::Mat& grey, const Board& board, Photo& photo, const E
 			RefineCorners(photo);
 		}
 	RefuseTooBlurred(all, photo.file);
+	if (photo.edges.empty())
+		throw Refused(fmt::format("{}: none of its {} edges can be measured; photograph the board larger and sharper: its squares must be at least {:.0f} px wide, however inclined",
+			photo.file, all.size(), LEAST_SQUARE_PX));
 	photo.edges_dropped = static_cast<int>(tried - photo.edges.size());
 }
 

@@ -320,7 +320,7 @@ EdgeOutcome MeasureLoneEdge(const cv::Mat& grey, const CornerGrid& grid, const L
 {
 	const Surroundings s = SurroundingsOf(grid, place.column, place.row, place.along_columns);
 	const Axes axes = AxesOf(grey, s);
-	if (axes.gap < 8 || axes.length < 8)
+	if (axes.gap < LEAST_SQUARE_PX || axes.length < LEAST_SQUARE_PX)
 		return EdgeOutcome::FAILED;
 
 	// The window depends on the blur: start from a guess, measure, choose again until
@@ -358,7 +358,7 @@ EdgeOutcome MeasureBlurredEdge(const cv::Mat& grey, const CornerGrid& grid, cons
 	const Vec2& growth, bool last, Edge& edge)
 {
 	const Axes axes = AxesOf(grey, SurroundingsOf(grid, place.column, place.row, place.along_columns));
-	if (axes.gap < 8 || axes.length < 8)
+	if (axes.gap < LEAST_SQUARE_PX || axes.length < LEAST_SQUARE_PX)
 		return EdgeOutcome::FAILED;
 	const Lines lines = LinesAround(grid, place, axes, growth);
 	const BlurredChecker profile = lines.Profile();

@@ -24,6 +24,9 @@ const double MOST_RATIO = 0.5;
 /// + low) below this is not believed there. Prints have 0.8 and more; 0.7 squares of blur look like 0.4 squares at 0.3.
 const double LEAST_CONTRAST = 0.65;
 
+/// A square narrower than this, px, holds too few pixels beside its edges' blur to measure any.
+const double LEAST_SQUARE_PX = 8;
+
 enum class EdgeOutcome
 {
 	MEASURED,

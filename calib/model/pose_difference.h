@@ -8,8 +8,8 @@
 namespace tiltcal
 {
 
-/// From one camera_from_board to another: the rotation vector, camera frame, by which the second is turned against the first, and the difference
-/// of the translations, mm. Rotation vectors themselves jump at half a turn.
+/// From one camera_from_board to another: the difference of their rotation vectors, rad, as sigmas of poses are of their components, and of the
+/// translations, mm. Of the vectors that turn as the second does, a whole turn apart, the one nearest the first, for they jump at half a turn.
 Pose FromPoseTo(const Pose& from, const Pose& to);
 
 }

@@ -12,7 +12,7 @@
 namespace tiltcal
 {
 
-/// Covariances of a problem's blocks, 0 for those that are held.
+/// Covariances of a problem's blocks, 0 for those that are held. A block that the problem does not have ends the program: Ceres's check.
 class BlockCovariance
 {
 public:

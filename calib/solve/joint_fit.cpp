@@ -212,7 +212,9 @@ std::optional<JointCovariance> JointFit::Covariance(Geometry& g, Unknowns& x) co
 		photographs.push_back(blocks);
 	BlockCovariance covariance(problem);
 	const std::vector<const double*> lens = LensBlocks(g, x);
-	const std::vector<SigmaOf> geometry = GeometryBlocks(g);
+	std::vector<SigmaOf> geometry = GeometryBlocks(g);
+	// A pose without edges is in no residual: it keeps its sigma.
+	geometry.erase(std::remove_if(geometry.begin(), geometry.end(), [&](const SigmaOf& wanted) { return !problem.HasParameterBlock(wanted.block); }), geometry.end());
 	std::vector<const double*> alone;
 	for (const SigmaOf& wanted : geometry)
 		alone.push_back(wanted.block);

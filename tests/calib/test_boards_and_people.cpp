@@ -6,6 +6,7 @@
 #include <tiltcal/error.h>
 #include "calibrate/check_photographs.h"
 #include "calibrate/verdict.h"
+#include "model/pose_difference.h"
 #include "report/write_csv.h"
 #include "report/write_json.h"
 #include "solve/least_squares.h"
@@ -300,6 +301,36 @@ TEST(BoardsAndPeople, EqualNumbersInOtherPosesDoNotMisleadThePapersModel)
 	const Estimate &own = c.paper.states[1].lens_tilt, &shared = in_order.paper.states[1].lens_tilt;
 	// Own poses, which the model's missing tilt of the picture moves a little, against the untilted ones'.
 	EXPECT_NEAR(own.value, shared.value, 0.5);
+}
+
+// By the components that sigmas are of; at half a turn, where the same rotation is the vector and its opposite, too.
+TEST(BoardsAndPeople, PosesDifferByTheirRotationVectors)
+{
+	const Pose rolled{ 0.1, 0.02, M_PI / 2, 1, 2, 3 }, other{ 0.13, 0, M_PI / 2, 1, 5, 3 };
+	const Pose difference = FromPoseTo(rolled, other);
+	const Pose expected{ 0.03, -0.02, 0, 0, 3, 0 };
+	for (size_t k = 0; k < 6; ++k)
+		EXPECT_NEAR(difference[k], expected[k], 1e-12) << k;
+	const Pose before{ 0, 0, M_PI - 0.01, 0, 0, 0 }, beyond{ 0, 0, -M_PI + 0.01, 0, 0, 0 };
+	EXPECT_NEAR(FromPoseTo(before, beyond)[2], 0.02, 1e-12);
+	EXPECT_NEAR(FromPoseTo(beyond, before)[2], -0.02, 1e-12);
+	EXPECT_EQ(FromPoseTo(before, Pose{})[2], 0.01 - M_PI);
+}
+
+// A program of its own may have thrown edges out. Corners still tell the pose; halves of one edge have none.
+TEST(BoardsAndPeople, APhotographWithoutEdgesHasItsPoseByCorners)
+{
+	for (const size_t left : { 0u, 1u })
+		for (const Model model : { Model::PLANE, Model::CURVED })
+		{
+			SCOPED_TRACE(fmt::format("{} edges", left));
+			Task task = Named({ Photograph("untilted", Lens(), NoiseOf(1)), Photograph("tilted", Tilted(5), NoiseOf(2)) });
+			task.states[1].photos[2].edges.resize(left);
+			const Calibration c = Calibrate(task, { model, Poses::OWN });
+			EXPECT_NEAR(c.solution.states[1].lens_tilt.value, 5, 4 * c.solution.states[1].lens_tilt.sigma);
+			for (const double sigma : c.geometry.states[1].pose_sigmas[2])
+				EXPECT_GT(sigma, 0) << "known by corners, not exactly";
+		}
 }
 
 TEST(BoardsAndPeople, AFailedRefinementIsInTheVerdict)

@@ -215,6 +215,33 @@ TEST(Detect, EdgesBlurredIntoEachOther)
 	EXPECT_GT(photo.edges.size(), 120u);
 }
 
+TEST(Detect, SquaresTooSmallToMeasureAreRefused)
+{
+	// Squares of 50 px made 6.5.
+	const double scale = 0.13;
+	const Painted painted = Paint(12, 9, 1);
+	const Board board = ParseBoard("12x9", 25);
+	Photo photo;
+	photo.file = "small";
+	photo.corners = DetectCorners(painted.image, board, {}, "painted");
+	for (Corner& c : photo.corners)
+	{
+		c.x = (c.x + 0.5) * scale - 0.5;
+		c.y = (c.y + 0.5) * scale - 0.5;
+	}
+	cv::Mat small;
+	cv::resize(painted.image, small, cv::Size(), scale, scale, cv::INTER_AREA);
+	try
+	{
+		MeasureEdges(small, board, photo);
+		FAIL() << photo.edges.size() << " edges";
+	}
+	catch (const Error& e)
+	{
+		EXPECT_THAT(e.what(), testing::AllOf(testing::HasSubstr("small: "), testing::HasSubstr("at least 8 px")));
+	}
+}
+
 TEST(Detect, BlurBeyondMeasuringIsRefused)
 {
 	const Painted sharp = Paint(12, 9, 1);

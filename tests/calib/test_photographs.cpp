@@ -87,7 +87,7 @@ TEST(Photographs, TiltsOfTheRealLensAreWithinTheirSigmas)
 	EXPECT_LT(lens.at("rms_blur_px"), Calibration().at("rms_blur_px"));
 }
 
-// The thin lens that is told beside the real one is wrong about this glass by more than its numbers scatter: sigmas hold that. By the prescription f is
+// The thin lens that is told beside the real one is wrong about this glass by more than its numbers scatter: sigmas hold that, its tilts' too. By the prescription f is
 // 45 mm, and d is 16.07 mm near the axis and that of a disc of 16.44 mm over the picture (tiltcal lens).
 TEST(Photographs, TheThinLensHoldsTheGlassInItsSigmas)
 {
@@ -96,6 +96,11 @@ TEST(Photographs, TheThinLensHoldsTheGlassInItsSigmas)
 	EXPECT_LT(off("focal_length", 45), 3);
 	EXPECT_LT(off("aperture_diameter", 45 / 2.8), 3);
 	EXPECT_LT(off("aperture_diameter", 16.44), 3);
+	for (const auto& [state, truth] : { std::pair{ "plus5", 5.0 }, std::pair{ "minus5", -5.0 } })
+	{
+		const Json thin = State(c, state).at("thin");
+		EXPECT_NEAR(thin.at("lens_tilt_deg").get<double>(), truth, 3 * thin.at("lens_tilt_sigma_deg").get<double>()) << state;
+	}
 	// What scatters is said as well, and is less.
 	EXPECT_LT(c.at("sigma_by_photographs").at("aperture_diameter_mm"), c.at("aperture_diameter_sigma_mm"));
 }

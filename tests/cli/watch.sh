@@ -51,6 +51,14 @@ watch)
 	rm in/plus5-4.jpg in/untilted-4.jpg
 	until_true grep -q 'plus5-4.jpg: is gone' err
 	until_true of 6
+	# A copy that comes first in order takes the place of the photograph, which is back when the copy goes.
+	calibrated() { [ "$(grep -c 'calibrated from 6' err)" = $1 ] && of 6; }
+	until_true calibrated 1
+	cp "$target/untilted-1.jpg" in/untilted-0.jpg
+	until_true grep -q 'skipped: .*untilted-1.jpg' err
+	until_true calibrated 2
+	rm in/untilted-0.jpg
+	until_true calibrated 3
 	kill -INT $pid; wait $pid; got=$?
 	[ $got = 0 ] || fail "exit code $got, expected 0"
 	none_left
