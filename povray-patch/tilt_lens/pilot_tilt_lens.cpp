@@ -63,12 +63,12 @@ static void Judge_First_Pilot_Samples(vector<TilePixel>& block, int w, int h)
 		block[i].neighbourhood_variance = around.variance[i];
 }
 
-/// In place of TraceTiltLensTile: as many blocks of the pilot as begin in this tile, from
+/// In place of TraceTiltLensTile: as many blocks of the pilot as this tile has room for, one at least, from
 /// anywhere in the picture, which itself stays black.
 void TracePixel::TraceTiltLensPilot(int left, int top, int right, int bottom, int width, int height, vector<Colour>& colours)
 {
-	for(int y = (top + PilotBlockSize - 1) / PilotBlockSize * PilotBlockSize; y <= bottom; y += PilotBlockSize)
-		for(int x = (left + PilotBlockSize - 1) / PilotBlockSize * PilotBlockSize; x <= right; x += PilotBlockSize)
+	for(int y = top; y <= bottom; y += PilotBlockSize)
+		for(int x = left; x <= right; x += PilotBlockSize)
 		{
 			int block_x, block_y;
 			if(camera.Tilt_Lens.pilot_queue->Next(block_x, block_y))

@@ -6,6 +6,7 @@
 #include "edge/fit_response.h"
 #include "solve/opening_points.h"
 #include "solve/real_lens_edge_cost.h"
+#include "solve/real_lens_light.h"
 #include "support/shaded_lens.h"
 #include "support/synthetic_lens.h"
 

@@ -141,7 +141,10 @@ assert len(t) == 72 and min(t) > 0 and r["margin_rows"] == 2 and r["setting"].st
 	refuses 3 nowhere s.pov --rows nowhere/rows.json ;;
 part)
 	scene s.pov "$lens"
-	expect 0 s.pov $small +SR1 +ER36; prints "3.46 k of them" ;;
+	expect 0 s.pov $small +SR1 +ER36; prints "3.46 k of them"
+	# Parts in which the whole picture's first blocks do not lie, or none begins.
+	expect 0 s.pov +W960 +H720 +SC100 +EC139 +SR100 +ER131 --pilot-time 1s; prints "1.28 k of them"; prints "Pilot: [4-9] blocks"
+	expect 0 s.pov +W96 +H72 +SR5 +ER12 --pilot-time 1s; prints "768 of them" ;;
 not_tilted) scene s.pov perspective; refuses 1 "tilt_lens" s.pov $small ;;
 pinhole) scene s.pov tilt_lens; refuses 1 "aperture 0" s.pov $small ;;
 broken) scene s.pov "$lens ["; refuses 1 "s.pov' line 4: Parse Error" s.pov $small ;;
