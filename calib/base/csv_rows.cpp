@@ -19,12 +19,20 @@ namespace tiltcal
 namespace
 {
 
+/// Without blanks beside commas and at the ends. Those inside of a field stay: `1 200` is no number.
 std::string Stripped(const std::string& line)
 {
-	std::string out;
+	std::string out, blanks;
 	for (const char c : line)
-		if (c != ' ' && c != '\t')
+		if (c == ' ' || c == '\t')
+			blanks += c;
+		else
+		{
+			if (c != ',' && !out.empty() && out.back() != ',')
+				out += blanks;
+			blanks.clear();
 			out += c;
+		}
 	return out;
 }
 

@@ -15,6 +15,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <string_view>
 
 namespace fs = std::filesystem;
 
@@ -59,6 +60,18 @@ bool NaturalLess(const std::string& a, const std::string& b)
 	return a < b;
 }
 
+}
+
+std::string AsPattern(const std::string& folder)
+{
+	std::string pattern;
+	for (const char c : folder)
+	{
+		if (std::string_view("*?[]\\").find(c) != std::string_view::npos)
+			pattern += '\\';
+		pattern += c;
+	}
+	return pattern;
 }
 
 std::vector<std::string> ExpandGlobs(const std::vector<std::string>& patterns, const std::string& option)

@@ -12,6 +12,9 @@
 namespace tiltcal
 {
 
+/// A folder's name in a pattern for ExpandGlobs: what would match others there stands for itself.
+std::string AsPattern(const std::string& folder);
+
 /// Every file that the patterns match (* ? [..] and plain names), sorted so that
 /// numbers count as numbers (photo-2 before photo-10), without duplicates.
 /// Throws FileError when a pattern matches nothing; `option` is named in the message.

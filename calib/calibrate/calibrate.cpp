@@ -53,16 +53,16 @@ void WarnOfOddPhotos(const Task& task, const Geometry& g, const Log& log)
 					task.states[s].photos[p].file, g.states[s].photo_rms[p], median));
 }
 
-/// The thin lens to solve where the options leave no choice. Throws UsageError where the two contradict each other.
-std::optional<Model> ModelFor(const CalibrateOptions& o)
+/// The thin lens to solve where the options leave no choice; a real lens begins at any. Throws UsageError where they contradict each other or the board.
+std::optional<Model> ModelFor(const CalibrateOptions& o, const Board& board)
 {
-	if (o.model == Model::LENS)
-		return std::nullopt;
+	if (o.model == Model::LENS && !board.IsCheckerboard())
+		throw UsageError("`model` lens looks at straight edges: give another model for circles, or photograph a checkerboard");
 	if (!o.effects.Excludes(EffectId::FIELD_CURVATURE))
-		return o.model;
+		return o.model == Model::LENS ? std::nullopt : o.model;
 	if (o.model == Model::CURVED)
 		throw UsageError("`model` curved has field curvature: add field_curvature to `effects`, or leave out `model`");
-	return o.model ? o.model : Model::PLANE;
+	return o.model && o.model != Model::LENS ? o.model : Model::PLANE;
 }
 
 /// What a program could have left out. Throws UsageError.
@@ -96,7 +96,7 @@ const double REAL_LENS_IS_WORTH_IT = 0.95;
 void FindRealLens(const Task& through_rims, const CalibrateOptions& o, Calibration& c)
 {
 	const bool asked = o.model == Model::LENS;
-	if (!asked && (o.model || o.effects.kind != EffectChoice::AUTO || !c.refined || !MoreThanNoiseIsLeftOver(c)))
+	if (!asked && (!c.task.board.IsCheckerboard() || o.model || o.effects.kind != EffectChoice::AUTO || !c.refined || !MoreThanNoiseIsLeftOver(c)))
 		return;
 	o.log.Info("solving one real lens, with aberrations, for all states");
 	RealLenses found = FindRealLens(c.task, through_rims, c.geometry, c.solution, WrittenRims(c), [&](RealLens& lens)
@@ -175,7 +175,7 @@ Calibration Solve(const Task& measured, const CalibrateOptions& o)
 	Calibration c;
 	c.task = measured;
 	const Task& task = c.task;
-	const std::optional<Model> model = ModelFor(o);
+	const std::optional<Model> model = ModelFor(o, task.board);
 	if (model != Model::PAPER)
 		SolveThinLens(measured, model, o, c);
 	else

@@ -25,7 +25,7 @@ const int WEIGHING_ROUNDS = 2;
 /// What the eye and this program compare: noise is about equal in dark and bright.
 cv::Mat Encoded(const cv::Mat& photo)
 {
-	cv::Mat grey = Luminance(photo);
+	cv::Mat grey = Luminance(photo).clone();
 	grey.forEach<float>([](float& value, const int*) { value = static_cast<float>(EncodeSrgb(value)); });
 	return grey;
 }

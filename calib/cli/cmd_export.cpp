@@ -100,11 +100,12 @@ void Run(const Options& o)
 	const StateCamera camera = ReadStateCamera(o.calibration, o.state);
 	for (const std::string& file : o.Files())
 		PrepareFolderOf(file == o.stmap ? file + "-undistort.exr" : file);
-	if (!o.opencv.empty())
-		ExportOpenCv(o, camera);
 	FileSet set;
 	ExportMaps(o, camera, set);
 	ExportScenes(o, camera, set);
+	// After all that may be refused.
+	if (!o.opencv.empty())
+		ExportOpenCv(o, camera);
 	set.Commit();
 }
 

@@ -49,7 +49,7 @@ std::vector<std::string> Pictures(const Options& o)
 	for (const std::string& name : o.pictures)
 	{
 		const bool folder = std::filesystem::is_directory(name);
-		for (const std::string& file : ExpandGlobs({ folder ? Join(name, "*") : name }, "PICTURE"))
+		for (const std::string& file : ExpandGlobs({ folder ? Join(AsPattern(name), "*") : name }, "PICTURE"))
 			if (!folder || (std::filesystem::is_regular_file(file) && IsPicture(file)))
 				files.push_back(file);
 	}

@@ -66,7 +66,7 @@ public:
 	{
 		for (FieldPattern& field : run.fields)
 			if (!std::filesystem::path(field.pattern).is_absolute())
-				field.pattern = Join(run.words.watch, field.pattern);
+				field.pattern = Join(AsPattern(run.words.watch), field.pattern);
 		fields = run.fields;
 	}
 

@@ -33,7 +33,7 @@ WatchedFiles::WatchedFiles(const std::string& folder, const std::vector<StatePat
 	for (StatePatterns& state : states)
 		for (std::string& pattern : state.patterns)
 			if (!fs::path(pattern).is_absolute())
-				pattern = Join(folder, pattern);
+				pattern = Join(AsPattern(folder), pattern);
 }
 
 void WatchedFiles::Look()

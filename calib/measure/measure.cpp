@@ -72,6 +72,7 @@ Reduced Reduce(const cv::Mat& grey, const Board& board, const Photo& photo)
 /// MeasureBlurredEdge with lengths of the full picture.
 EdgeOutcome MeasureReduced(const Reduced& r, const EdgePlace& place, double start_radius, const Vec2& growth, bool last, Edge& edge)
 {
+	edge = {};   // no profile of the pixels of the reduced picture
 	const EdgeOutcome outcome = MeasureBlurredEdge(r.grey, r.grid, r.light, place, start_radius / r.factor, growth, last, edge);
 	edge.x = (edge.x + 0.5) * r.factor - 0.5;
 	edge.y = (edge.y + 0.5) * r.factor - 0.5;

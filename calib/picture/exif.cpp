@@ -97,7 +97,7 @@ PhotographFacts ReadFacts(const PictureFile& picture, int width)
 	{
 		const auto image = Exiv2::ImageFactory::open(reinterpret_cast<const Exiv2::byte*>(picture.bytes.data()), static_cast<long>(picture.bytes.size()));
 		image->readMetadata();
-		return FromExif(image->exifData(), width);
+		return FromExif(image->exifData(), width > 0 ? width : int(image->pixelWidth()));
 	}
 	catch (const std::exception&)
 	{

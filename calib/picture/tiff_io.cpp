@@ -191,7 +191,7 @@ cv::Mat Decode(const PictureFile& picture, TIFF* tiff, const std::string& error)
 	if (l.photometric == PHOTOMETRIC_MINISWHITE)
 		cv::bitwise_not(image, image);
 	if (l.colours == 3)
-		cv::cvtColor(image, image, cv::COLOR_RGB2BGR);
+		cv::mixChannels(cv::Mat(image.clone()), image, { 0, 2, 1, 1, 2, 0 });   // cvtColor takes no doubles
 	return image;
 }
 

@@ -217,7 +217,7 @@ GlassRims FitRims(const Prescription& lens, const Paraxial& p, const FittedLens&
 			for (size_t k = 0; k < cuts.size() && ray.inside && !ray.cut; ++k)
 				cuts[k] += !tried[k] && ray.heights[k] > 1;
 		const size_t k = size_t(std::max_element(cuts.begin(), cuts.end()) - cuts.begin());
-		const double share = double(cuts[k]) / inside;
+		const double share = double(cuts[k]) / std::max(1.0, inside);
 		if (share < LEAST_CUT)
 			break;
 		if (found.rims.size() == size_t(tilt_lens::MostRims))

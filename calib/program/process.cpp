@@ -136,6 +136,9 @@ struct Prepared
 	const int in = what.input >= 0 ? what.input : open("/dev/null", O_RDONLY);
 	if (out < 0 || in < 0 || dup2(in, 0) < 0 || dup2(out, 1) < 0 || dup2(out, 2) < 0 || (*what.folder && chdir(what.folder) != 0))
 		_exit(126);
+	// One that was 0 already, because this process was started without stdin, is still closed by exec.
+	for (const int kept : { 0, 1, 2 })
+		fcntl(kept, F_SETFD, 0);
 	environ = const_cast<char**>(what.environment.data());
 	execvp(what.words[0], what.words.data());
 	_exit(127);

@@ -34,6 +34,8 @@ std::string Harmless(std::string text)
 	return text;
 }
 
+const char NOT_WRITTEN[] = "the results could not be written to stdout";
+
 int Fail(const std::string& name, ExitCode code, const std::string& message)
 {
 	fmt::print(stderr, "{}: error: {}\n", name, Harmless(SpelledAsOptions(message)));
@@ -80,8 +82,8 @@ int RunProgram(const std::string& name, const std::function<int()>& run)
 	{
 		const int code = run();
 		// A full disk or a closed pipe must not look like success.
-		if (code == EXIT_DONE && std::fflush(stdout) != 0)
-			return Fail(name, EXIT_FILE, "the results could not be written to stdout");
+		if (code == EXIT_DONE && (std::fflush(stdout) != 0 || std::ferror(stdout)))
+			return Fail(name, EXIT_FILE, NOT_WRITTEN);
 		return code;
 	}
 	catch (const Error& e)
@@ -95,7 +97,8 @@ int RunProgram(const std::string& name, const std::function<int()>& run)
 	}
 	catch (const std::exception& e)
 	{
-		return Fail(name, EXIT_REFUSED, fmt::format("unexpected: {}", e.what()));
+		// Longer texts are found out while they are printed.
+		return std::ferror(stdout) ? Fail(name, EXIT_FILE, NOT_WRITTEN) : Fail(name, EXIT_REFUSED, fmt::format("unexpected: {}", e.what()));
 	}
 }
 

@@ -85,12 +85,24 @@ void AddCrossing(const std::array<Vec3<double>, 3>& P, const std::array<double, 
 		part.sharp.push_back({ ends[0], ends[1] });
 }
 
+/// The last corner of the outer squares, which begin at (-1, -1), one square before the first inner corner; of a grid of circles a step around them.
+struct LastCorner
+{
+	int column, row;
+};
+
+LastCorner LastCornerOf(const Board& board)
+{
+	if (board.IsCheckerboard())
+		return { board.columns - 1, board.rows - 1 };
+	return { board.CircleColumn(board.columns - 1, 1) + 1, board.rows };
+}
+
 BoardPart MakeBoard(const SceneParts& scene, const Board& board, const Pose& pose)
 {
 	BoardPart part;
 	const auto at = [&](int column, int row) { return CameraFromBoard(pose.data(), board.X(column), board.Y(row)); };
-	// The outer squares begin one square before the first inner corner.
-	const int right = board.columns - 1, bottom = board.rows - 1;
+	const auto [right, bottom] = LastCornerOf(board);
 	part.outline = { at(-1, -1), at(right, -1), at(right, bottom), at(-1, bottom) };
 	for (int j = -1; j < bottom; ++j)
 		for (int i = -1; i < right; ++i)
@@ -108,8 +120,8 @@ double DepthOf(const Task& task, const std::vector<Pose>& poses, double U)
 {
 	double far = 0;
 	for (const Pose& pose : poses)
-		for (const int column : { -1, task.board.columns - 1 })
-			for (const int row : { -1, task.board.rows - 1 })
+		for (const int column : { -1, LastCornerOf(task.board).column })
+			for (const int row : { -1, LastCornerOf(task.board).row })
 				far = std::max(far, CameraFromBoard(pose.data(), task.board.X(column), task.board.Y(row)).z);
 	return 1.12 * (U > far && U < 2 * far ? U : far);
 }

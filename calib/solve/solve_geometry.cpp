@@ -339,6 +339,26 @@ Geometry SolveGeometry(const Task& task, const GeometryOptions& options)
 	return g;
 }
 
+namespace
+{
+
+/// None where the photographs do not determine so many terms.
+std::optional<Geometry> Determined(const Task& task, const GeometryOptions& options)
+{
+	try
+	{
+		return SolveGeometry(task, options);
+	}
+	catch (const Error& e)
+	{
+		if (e.Code() != EXIT_REFUSED)
+			throw;
+		return std::nullopt;
+	}
+}
+
+}
+
 Geometry SelectGeometry(const Task& task, GeometryOptions options)
 {
 	options.terms = 0;
@@ -348,10 +368,10 @@ Geometry SelectGeometry(const Task& task, GeometryOptions options)
 	for (const int terms : { 1, 2, 4, 5 })
 	{
 		options.terms = terms;
-		Geometry next = SolveGeometry(task, options);
-		if (next.rms > 0.985 * best.rms || !IsDistorted(next))
+		const std::optional<Geometry> next = Determined(task, options);
+		if (!next || next->rms > 0.985 * best.rms || !IsDistorted(*next))
 			break;
-		best = next;
+		best = *next;
 	}
 	return best;
 }

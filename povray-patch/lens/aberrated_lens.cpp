@@ -115,7 +115,7 @@ void CheckAberrations(const CameraVectors& camera, TiltLens& lens)
 		{
 			// Half a percent beyond the frame, where anti-aliasing may ask.
 			const Vec3d pixel = lens.direction + (1.01 * (i / 32.0 - 0.5)) * camera.right + (1.01 * (j / 32.0 - 0.5)) * camera.up;
-			if(!(Dot(pixel, lens.normal) > 0.0))
+			if(!(lens.Depth(pixel) > 0.0))
 				continue;
 			for(int turn = 0; turn < 8; turn++)
 			{

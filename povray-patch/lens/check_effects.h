@@ -64,6 +64,13 @@ inline void CheckDistortion(const TiltLens& lens, const CameraVectors& camera)
 		}
 }
 
+/// Refuses light relative to that on a lens axis which is parallel to the sensor.
+inline void CheckFalloff(const TiltLens& lens)
+{
+	if(lens.natural_vignetting && !(Dot(lens.normal, lens.axis) > 1e-6))
+		Refuse("tilt_lens: vignetting natural is relative to the light where the lens's axis meets the sensor, and this lens is tilted by 90 degrees.");
+}
+
 /// Refuses a rim beyond the sensor, which would cut nothing of its light.
 inline void CheckRims(const TiltLens& lens)
 {

@@ -213,6 +213,7 @@ void ResolveEffects(const LensSpec& spec, const CameraVectors& camera, TiltLens&
 		CheckDistortion(lens, camera);
 	CheckFocus(lens, camera);
 	CheckRims(lens);
+	CheckFalloff(lens);
 	SettleSteps(lens);
 	if(lens.aberrates)
 		CheckAberrations(camera, lens);

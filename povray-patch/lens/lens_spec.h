@@ -13,6 +13,7 @@
 #include "lens/distortion.h"
 #include "lens/lens_ray.h"
 #include "lens/optical_vignetting.h"
+#include "lens/pupil_magnification.h"
 #include "lens/vec3.h"
 
 namespace tilt_lens
@@ -153,6 +154,8 @@ struct TiltLens
 	/// Inverse focus distance of the direction v, for reports; the tracer has its own
 	/// copy without the question. Without aberrations.
 	double Kappa(const Vec3d& v) const;
+	/// How far the pinhole direction v goes along the lens's normal, seen through both pupils: it has rays where this is above 0. Linear in v.
+	double Depth(const Vec3d& v) const { return Dot(DirectionFromExitPupil(axis, pupil_magnification, v), normal); }
 
 	// For reports.
 	Vec3d inverse_focus_camera;         ///< q in the camera frame

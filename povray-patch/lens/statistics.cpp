@@ -68,11 +68,11 @@ FocusCounts CountFocus(const TiltLens& lens, const CameraVectors& camera,
 	const double half_range = 0.5 * (std::fabs(across) + std::fabs(down));
 	FocusCounts count;
 
-	const double seen_across = Dot(lens.normal, camera.right) / width;
+	const double seen_across = lens.Depth(camera.right) / width;
 	for(int y = top; y <= bottom; y++)
 	{
 		const Vec3d row = lens.direction + (0.5 / width - 0.5) * camera.right + (0.5 - (y + 0.5) / height) * camera.up;
-		const double row_seen = Dot(lens.normal, row);
+		const double row_seen = lens.Depth(row);
 		const double row_kappa = Dot(lens.inverse_focus, row);
 
 		for(int x = left; x <= right; x++)

@@ -49,13 +49,12 @@ void Trace::TraceTiltLensAreaLightShadowRay(const LightSource &lightsource, doub
 }
 
 /// The object that shadowed a light last is asked first, and shadows from nearer than others
-/// do: at the edge of a surface's own shadow a pixel would depend on what its thread traced
-/// before. A grid hides that, single points do not.
-void Trace::ForgetWhatShadowedAreaLights()
+/// do: at the edge of a surface's own shadow, and between surfaces that nearly touch, a pixel would depend on what
+/// its thread traced before.
+void Trace::ForgetWhatShadowedLights()
 {
 	for(size_t i = 0; i < threadData->lightSources.size(); i++)
-		if(threadData->lightSources[i]->Area_Light)
-			lightSourceLevel1ShadowCache[i] = lightSourceOtherShadowCache[i] = NULL;
+		lightSourceLevel1ShadowCache[i] = lightSourceOtherShadowCache[i] = NULL;
 }
 
 }

@@ -29,6 +29,7 @@ struct CameraLens
 	LensSpec spec;
 	TiltLens lens;
 	CameraVectors vectors;              ///< of which it was resolved
+	bool finished = false;              ///< its camera has ended: what follows is another's
 	std::vector<SampleLevel> levels;    ///< increasing; the last one always stops
 	boost::shared_ptr<TileBorders> borders; ///< between the tiles of one picture, whichever thread traces them
 

@@ -63,7 +63,8 @@ namespace tilt_lens
 
 bool CameraLens::Keeps_Pixels() const
 {
-	return !Records() && (!Denoises() || denoised->IsShown());
+	// A render that goes on does so in its first pass: the second's pixels would be missing there.
+	return !Records() && !Denoises();
 }
 
 void CameraLens::Begin_Picture(int width, int height, int left, int top, int right, int bottom)

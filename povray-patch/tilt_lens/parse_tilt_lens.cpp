@@ -39,11 +39,12 @@ static const int Default_Blur_Samples = 128;
 /// tilt_lens [ { WORDS } ]
 void Parser::Parse_Tilt_Lens(Camera& New)
 {
-	if (New.Tilt_Lens.spec.enabled)
+	if (New.Tilt_Lens.spec.enabled && !New.Tilt_Lens.finished)
 		Error("A camera has only one tilt_lens block.");
+	// That of #default.
+	New.Tilt_Lens = tilt_lens::CameraLens();
 	if (New.Type != PERSPECTIVE_CAMERA)
 		Error("tilt_lens is a camera type of its own and cannot be combined with another.");
-	New.Tilt_Lens.spec = LensSpec();
 	New.Tilt_Lens.spec.enabled = true;
 
 	Get_Token();
@@ -75,10 +76,6 @@ void Parser::Parse_Tilt_Lens_Anew(Camera& New)
 	if (!before.enabled)
 		Error("The declared camera is no tilt_lens camera, and has no lens that tilt_lens could replace.\n"
 		      "Begin its declaration with tilt_lens, even without words.");
-	// What follows from the words is made when the camera ends.
-	if (!New.Tilt_Lens.borders)
-		Error("A camera has only one tilt_lens block.");
-	New.Tilt_Lens = tilt_lens::CameraLens();
 	Parse_Tilt_Lens(New);
 	New.Tilt_Lens.spec.Take_Words_Around(before);
 }
@@ -250,8 +247,14 @@ void Parser::Resolve_Tilt_Lens(Camera& New)
 	if (New.Type != PERSPECTIVE_CAMERA)
 		Error("tilt_lens is a camera type of its own and cannot be combined with another.");
 	New.Tilt_Lens.spec.bokeh = (New.Bokeh != NULL);
+	New.Tilt_Lens.finished = true;
 	if (!tilt_lens::ResolveTiltLens(New.Tilt_Lens.spec, Vectors_Of(New), New.Tilt_Lens.lens, error))
+	{
+		// A declared camera is yet to be moved to where its planes and points of the world can be focused.
+		if (&New != &sceneData->parsedCamera)
+			return;
 		Error("%s", error.c_str());
+	}
 	New.Tilt_Lens.vectors = Vectors_Of(New);
 	if (New.Bokeh != NULL)
 		Measure_Tilt_Lens_Bokeh(New);

@@ -101,7 +101,9 @@ static bool Box_Touches_Lens(const BBOX& box, const VECTOR location, const tilt_
 	for(int i = 0; i < 3; i++)
 	{
 		// Boxes are kept in single precision: leave room for their rounding.
-		const DBL reach = (lens.reach * sqrt(x[i] * x[i] + y[i] * y[i]) + fabs(location[i]) * 1e-6) * 1.001 + EPSILON;
+		// A square opening has corners.
+		const DBL extent = lens.square ? fabs(x[i]) + fabs(y[i]) : sqrt(x[i] * x[i] + y[i] * y[i]);
+		const DBL reach = (lens.reach * extent + fabs(location[i]) * 1e-6) * 1.001 + EPSILON;
 		const DBL low = box.Lower_Left[i], high = low + box.Lengths[i];
 		if((low - fabs(low) * 1e-6 > location[i] + reach) || (high + fabs(high) * 1e-6 < location[i] - reach))
 			return false;
@@ -138,13 +140,6 @@ bool TracePixel::InteriorTouchesTiltLens()
 	return false;
 }
 
-/// The start of both functions below: true where the pixel looks along or behind the lens
-/// plane (v.n <= 0). Then there is no ray, unless the lens is but a point.
-static inline bool Looks_Behind_Lens(const Vec3d& v, const tilt_lens::TiltLens& lens)
-{
-	return !(Dot(v, lens.normal) > 0.0);
-}
-
 /// Turns the pinhole ray of a pixel, which stands in `ray`, into the ray that
 /// leaves the current lens sample (lens/MODEL.md, The lens ray). False where there is none.
 ///
@@ -154,7 +149,8 @@ bool TracePixel::SendRayThroughTiltLens(Ray& ray)
 	const tilt_lens::TiltLens& lens = camera.Tilt_Lens.lens;
 	const Vec3d v = { ray.Direction[X], ray.Direction[Y], ray.Direction[Z] };
 
-	if(Looks_Behind_Lens(v, lens))
+	// Along or behind the lens plane there is no ray, unless the lens is but a point. (Here both pupils are as large.)
+	if(!(Dot(v, lens.normal) > 0.0))
 	{
 		if(!lens.IsPinhole())
 			return false;
@@ -183,7 +179,7 @@ bool TracePixel::SendRayThroughTiltLensWithEffects(Ray& ray)
 	r.lens_v = tiltLensSample.lens_v;
 	r.wavelength = tiltLensWavelength;
 	r.weight = tiltLensWeight = 1.0;
-	if(Looks_Behind_Lens(r.v, lens))
+	if(!(lens.Depth(r.v) > 0.0))
 	{
 		if(!lens.IsPinhole() || lens.weighs)
 			return false;
@@ -291,8 +287,7 @@ void TracePixel::SampleTiltLensPixel(tilt_lens::TilePixel& pixel, int samples, D
 	if(pixel.sums.count < samples)
 	{
 		SeedRandomNumbersOfTiltLens(tilt_lens::RandomSeedOfPixel(pixel.x, pixel.y, camera.Tilt_Lens.Seed(), pixel.sums.count));
-		if(lights)
-			ForgetWhatShadowedAreaLights();
+		ForgetWhatShadowedLights();
 	}
 	while(pixel.sums.count < samples)
 	{

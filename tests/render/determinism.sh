@@ -48,6 +48,13 @@ plain)
 	threads_and_strips "$ours" "tilt and blur"
 	grep 'Samples/Pixel:   min 16 .* max 128 ' whole.ppm.log || fail "the number of samples does not adapt: nothing shown"
 	;;
+near)
+	# What shadowed a light last is asked first, and shadows from 0.0001 on, others from 0.001: a scene in metres of things of millimetres.
+	# Seen through its thread's last shadow a pixel would be another.
+	printf '%s\n' '#declare Oracle_Placement = transform { scale 0.002 };' '#include "oracle-scene.inc"' "camera { tilt_lens { focal_plane_tilt 60 tilt_direction 30 focal_distance 0.016 aperture_diameter 0.0008 }
+		location <0, 0.0052, -0.007> right x * 4 / 3 up y direction z * 1.5 look_at <0, 0.0024, 0.012> $blur }" > scene.pov
+	threads_and_strips "$ours" "surfaces that nearly touch"
+	;;
 few)
 	# Pixels of one sample, which are judged by their neighbours'.
 	for least in 1 2; do
@@ -67,9 +74,25 @@ denoise)
 	scene "$(echo "$lens" | sed 's/tilt_lens *{/tilt_lens { denoise/')" "$blur" ""
 	threads_and_strips "$ours" "tilt, blur and denoise"
 	grep 'before denoise' whole.ppm.log || fail "not denoised: nothing shown"
-	# An interrupted one begins anew, and ends the same.
-	render "$ours" whole.ppm scene.pov $size +C
-	check "denoise, continued" "$compare" same whole.ppm threads.ppm
+	# An interrupted one begins anew, and ends the same: killed at several times, some of them in the second pass, which shows the pixels, a
+	# fourth of all the time here. None of these may be taken for final.
+	scene "$(echo "$lens" | sed 's/tilt_lens *{/tilt_lens { denoise/')" "blur_samples 2" ""
+	size="+W640 +H480"
+	began=$(date +%s%N)
+	render "$ours" whole.ppm scene.pov $size
+	took=$(($(date +%s%N) - began))
+	for percent in 40 75 85 95; do
+		rm -f killed.ppm
+		"$ours" -D $size -A +WT1 +FP16 File_Gamma=1 "+L$here" +Iscene.pov +Okilled.ppm < /dev/null > killed.log 2>&1 &
+		process=$!
+		sleep $(awk "BEGIN { print $took * $percent / 1e11 }")
+		kill -9 $process 2> /dev/null
+		wait $process 2> /dev/null
+		kept=$(state)
+		[ "$kept" -lt 12000 ] || fail "$kept bytes of pixels are kept"
+		render "$ours" killed.ppm scene.pov $size +C
+		check "killed after $percent %, continued" "$compare" same whole.ppm killed.ppm
+	done
 	;;
 area_light)
 	scene "$lens" "$blur" "$area"

@@ -77,6 +77,17 @@ declared)
 	render "$ours" whole.exr whole.pov
 	# The same lens to rounding, which may turn single samples at edges.
 	check "the plane stays in the world" "$compare" rms 0.0005 whole.exr other.exr
+	# Declared where that plane passes through the lens: it is moved before it takes a picture. Where it is not, that is refused.
+	sed 's/location <0, 2.6, -3.5>/location <0, 0, -3.5>/; s/look_at <0, 2.6, 6>/look_at <0, 0, 6>/; s/translate <0, 0.5, 0>/translate <0, 3.1, 0>/' other.pov > at-floor.pov
+	render "$ours" other.exr at-floor.pov
+	check "declared on its plane" "$compare" rms 0.0005 whole.exr other.exr
+	sed 's/translate <0, 3.1, 0>//' at-floor.pov > stays.pov
+	povray_to "$ours" stays.exr stays.pov && fail "a lens on its plane of focus is no error"
+	grep -q 'passes through the lens centre' stays.exr.log || fail "no word of the lens centre"
+	# The default camera's lens is no second block of the next.
+	scene default "camera { tilt_lens { focal_plane_tilt 40 tilt_direction 70 } $view $of $blur $move }" "#default { camera { tilt_lens { lens_tilt 5 } } }"
+	render "$ours" default.ppm default.pov
+	check "after a default" "$compare" same other.ppm default.ppm
 	;;
 restated)
 	# A declared camera with another lens: what stands around the block is kept, the block is the new one alone.

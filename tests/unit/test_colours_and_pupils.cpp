@@ -13,6 +13,7 @@
 #include "lens/lens_spec.h"
 #include "lens/optics.h"
 #include "lens/pupil_magnification.h"
+#include "lens/statistics.h"
 #include "unit/resolved_lens.h"
 
 using namespace tilt_lens;
@@ -88,6 +89,51 @@ TEST(PupilMagnification, FollowsTheLightThroughBothPupils)
 	EXPECT_NEAR(Dot(v, basis.a) / Dot(v, n), X, 1e-15);
 	EXPECT_NEAR(Dot(v, basis.b) / Dot(v, n), Y, 1e-15);
 	EXPECT_NEAR(Length(DirectionBehindPupils(n, M, DirectionBeforePupils(n, M, sensor)) - sensor), 0, 1e-13);
+}
+
+// n = (-sin 60, 0, cos 60), and behind both pupils the tangents about it are 1/M of those before: rays leave where x < M / tan 60, by the line from the
+// exit pupil, M w before the sensor, that grazes the lens plane.
+TEST(PupilMagnification, RaysLeaveForwardsWhereTheExitPupilSeesThem)
+{
+	LensSpec spec;
+	spec.enabled = true;
+	spec.lens_tilt = 60.0;
+	spec.tilt_direction = 90.0;
+	spec.focal_distance = 5.0;
+	spec.aperture_diameter = 0.1;
+	for(double M : { 0.5, 1.3, 2.0 })
+	{
+		spec.pupil_magnification = M;
+		const TiltLens lens = Resolved(spec);
+		const double last = M / std::tan(60 * Degree);
+		for(double x : { -0.9, 0.0, last - 0.01, last + 0.01, 0.99 })
+		{
+			LensRay ray = {};
+			ray.pixel = ray.v = lens.direction + 0.5 * x * Camera.right;
+			ray.lens_u = 0.8;
+			ray.lens_v = 0.3;
+			EXPECT_EQ(lens.Depth(ray.v) > 0.0, x < last) << M << " " << x;
+			for(const LensStep *step = lens.steps; *step != NULL; step++)
+				(*step)(lens, ray);
+			EXPECT_EQ(Dot(ray.R, lens.normal) > 0.0, x < last) << M << " " << x;
+		}
+		// Half a pixel of 1000.
+		EXPECT_NEAR(CountFocus(lens, Camera, 1000, 10, 0, 0, 999, 9).empty / 10000.0, std::max(0.0, 0.5 * (1.0 - last)), 1e-3) << M;
+	}
+}
+
+// The plane of focus that makes a lens parallel to the axis: there is no light on its axis that any could be relative to.
+TEST(Effects, NaturalVignettingNeedsALensAxis)
+{
+	LensSpec spec;
+	spec.enabled = true;
+	spec.image_distance = 1.0;
+	spec.focal_plane_point = V{ 0, 0, -1 };
+	spec.focal_plane_normal = V{ 0, 1, 1 };
+	spec.aperture_diameter = 0.1;
+	Resolved(spec);
+	spec.natural_vignetting = true;
+	EXPECT_THAT(RefusalOf(spec), HasSubstr("tilted by 90 degrees"));
 }
 
 // What is not named has no step: three make the lens itself, and one more each effect.
