@@ -14,7 +14,7 @@ namespace tiltcal
 
 struct CsvRow
 {
-	std::string text;   ///< without blanks
+	std::string text;   ///< without blanks beside commas and at its ends
 	int line = 0;       ///< of the file, for messages
 };
 

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 
 namespace tiltcal
@@ -26,6 +27,10 @@ struct Options
 
 void Run(const Options& o)
 {
+	for (const char* const name : { "profile.png", "side-by-side.png" })
+		for (const std::string& given : { o.a, o.b })
+			if (std::error_code none; std::filesystem::equivalent(given, Join(o.out, name), none))
+				throw UsageError(fmt::format("{}: --out {} would write over it; give another folder", given, o.out));
 	const Match match = ParseMatch(o.match);
 	std::vector<Line> lines;
 	for (const std::string& text : o.lines)
@@ -36,10 +41,6 @@ void Run(const Options& o)
 	if (a.size() != b.size())
 		throw Refused(fmt::format("{} is {}x{} pixels, {} is {}x{}: only pictures of the same size can be compared; render at the photograph's size",
 			o.a, a.cols, a.rows, o.b, b.cols, b.rows));
-	for (const char* const name : { "profile.png", "side-by-side.png" })
-		for (const std::string& given : { o.a, o.b })
-			if (std::error_code none; std::filesystem::equivalent(given, Join(o.out, name), none))
-				throw UsageError(fmt::format("{}: --out {} would write over it; give another folder", given, o.out));
 	PrepareFolder(o.out);
 	if (!o.json.empty())
 		PrepareFolderOf(o.json);

@@ -4,9 +4,11 @@
 
 #include <tiltcal/calibrate.h>
 #include "base/files.h"
+#include <tiltcal/error.h>
 #include "measure/measure_circles.h"
 #include "report/overlay.h"
 #include "report/report_html.h"
+#include "solve/held_out_corners.h"
 #include "support/thin_lens_picture.h"
 #include "report/write_json.h"
 
@@ -68,6 +70,9 @@ void TiltIsFound(const Board& board, size_t photos)
 	task.height = 480;
 	task.states = { Photograph("untilted", 0, board, photos), Photograph("plus5", TILT, board, photos) };
 	const Calibration c = Calibrate(task, { Model::PLANE, Poses::AUTO });
+	// Every second circle tells the geometry, too; a real lens is of edges that are straight.
+	EXPECT_GT(CornersLeftOut(c.task, { 0, {}, c.geometry.shared_poses }), 0);
+	EXPECT_THROW(Calibrate(task, { Model::LENS, Poses::AUTO }), Error);
 	const StateLens& lens = c.solution.states[1];
 	const double phi = lens.tilt_direction.value * M_PI / 180, tilt = lens.lens_tilt.value, true_phi = DIRECTION * M_PI / 180;
 	// As a vector: direction and size in one.

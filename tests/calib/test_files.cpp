@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
 #include <tiltcal/error.h>
+#include "base/csv_rows.h"
 #include "base/file_set.h"
 #include "base/files.h"
 #include "base/plain_text.h"
@@ -36,6 +37,25 @@ TEST_F(Files, ANameWithBracketsIsTakenAsItIs)
 {
 	Touch("photo[1].png");
 	EXPECT_EQ(ExpandGlobs({ At("photo[1].png") }, "x").size(), 1u);
+}
+
+TEST_F(Files, AFoldersBracketsAreNoPattern)
+{
+	for (const char* const folder : { "set[12]", "set1" })
+	{
+		fs::create_directory(At(folder));
+		Touch(std::string(folder) + "/a.png");
+	}
+	EXPECT_EQ(ExpandGlobs({ AsPattern(At("set[12]")) + "/*.png" }, "x"), std::vector<std::string>{ At("set[12]/a.png") });
+}
+
+TEST_F(Files, BlanksInsideOfANumberStay)
+{
+	std::ofstream(At("rows.csv")) << "x, y\n1 200,50\n 3 ,\t4 \n";
+	const std::vector<CsvRow> rows = ReadCsvRows(At("rows.csv"), "x,y");
+	ASSERT_EQ(rows.size(), 2u);
+	EXPECT_EQ(rows[0].text, "1 200,50");
+	EXPECT_EQ(rows[1].text, "3,4");
 }
 
 TEST_F(Files, AnEmptyGlobNamesTheOption)

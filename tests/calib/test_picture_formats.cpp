@@ -12,11 +12,14 @@
 #include "support/in_temporary_folder.h"
 #include "support/picture_seeds.h"
 
+#include <exiv2/exiv2.hpp>
 #include <gmock/gmock.h>
 #include <opencv2/imgcodecs.hpp>
 #include <sys/stat.h>
+#include <tiffio.h>
 #include <unistd.h>
 
+#include <array>
 #include <filesystem>
 #include <fstream>
 
@@ -84,6 +87,21 @@ TEST_F(PictureFormats, EveryKindGivesTheSamePictureUnturned)
 	}
 }
 
+/// A pixel of red, green and blue in 64 bits each, which OpenCV does not write.
+void WriteDoubles(const std::string& file, std::array<double, 3> colours)
+{
+	TIFF* tiff = TIFFOpen(file.c_str(), "w");
+	for (const uint32_t tag : { TIFFTAG_IMAGEWIDTH, TIFFTAG_IMAGELENGTH, TIFFTAG_ROWSPERSTRIP })
+		TIFFSetField(tiff, tag, 1);
+	TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, 64);
+	TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, 3);
+	TIFFSetField(tiff, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_IEEEFP);
+	TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_RGB);
+	TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
+	TIFFWriteScanline(tiff, colours.data(), 0, 0);
+	TIFFClose(tiff);
+}
+
 TEST_F(PictureFormats, ColoursKeepTheirOrder)
 {
 	const cv::Mat blue_first(16, 16, CV_8UC3, cv::Scalar(10, 120, 250));
@@ -95,6 +113,10 @@ TEST_F(PictureFormats, ColoursKeepTheirOrder)
 		for (int k = 0; k < 3; ++k)
 			EXPECT_NEAR(c[k], blue_first.at<cv::Vec3b>(8, 8)[k] / 255.0, 0.02) << name << k;
 	}
+	WriteDoubles(At("double.tif"), { 0.9, 0.5, 0.1 });
+	const cv::Vec3f c = ReadLinear(At("double.tif"), ParseTransfer("linear")).at<cv::Vec3f>(0, 0);
+	for (int k = 0; k < 3; ++k)
+		EXPECT_FLOAT_EQ(c[k], 0.1f + 0.4f * float(k)) << k;
 }
 
 TEST_F(PictureFormats, SizesAreRefusedBeforePixelsAreRead)
@@ -206,6 +228,15 @@ TEST_F(PictureFormats, ExifIsReadFromEveryKindThatHasIt)
 	EXPECT_TRUE(none.Empty());
 	// A picture scaled since has another pitch.
 	EXPECT_FALSE(ReadFacts(ReadPictureFile(At("exif.jpg")), 90).pitch_mm);
+	// So has one whose EXIF a tool kept when it scaled.
+	EXPECT_TRUE(ReadFacts(At("exif.jpg")).pitch_mm);
+	cv::imwrite(At("half.jpg"), cv::Mat::zeros(10, 10, CV_8U));
+	const auto from = Exiv2::ImageFactory::open(At("exif.jpg")), to = Exiv2::ImageFactory::open(At("half.jpg"));
+	from->readMetadata();
+	to->setExifData(from->exifData());
+	to->writeMetadata();
+	EXPECT_EQ(ReadFacts(At("half.jpg")).focal_length_mm, 45.0);
+	EXPECT_FALSE(ReadFacts(At("half.jpg")).pitch_mm);
 }
 
 TEST(Exif, BecomesWeakPriorsWhereNothingWasGiven)

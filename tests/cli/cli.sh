@@ -170,7 +170,9 @@ detect_circles_usage)
 detect_unwritable) : >blocked; refuses 3 blocked detect --board 12x9 "$target/untilted-1.jpg" --csv blocked/x.csv ;;
 profile_same)
 	expect 0 profile "$photos/scene/plus5.jpg" "$photos/scene/plus5.jpg" --line 0,660,1799,660 --out result
-	prints "line 1 (0,660,1799,660): mean absolute error 0.000" ; prints "match none" ;;
+	prints "line 1 (0,660,1799,660): mean absolute error 0.000" ; prints "match none"
+	refuses 2 "would write over it" profile "$photos/scene/plus5.jpg" result/side-by-side.png --out result
+	[ -s result/side-by-side.png ] || fail "it is gone" ;;
 profile_sizes_differ)
 	# A PNG of 1 x 1 pixels.
 	printf '\211\120\116\107\015\012\032\012\000\000\000\015\111\110\104\122\000\000\000\001\000\000\000\001\010\000\000\000\000\072\176\233\125\000\000\000\012\111\104\101\124\170\234\143\250\000\000\000\172\000\171\263\141\265\173\000\000\000\000\111\105\116\104\256\102\140\202' >one.png
