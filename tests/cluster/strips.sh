@@ -141,6 +141,12 @@ light)
 	python3 "$here/../support/png_pixels.py" none.png dark.png > same.txt 2>&1 && fail "the photons change nothing: nothing shown"
 	scene r.pov "$blur" "$light global_settings { radiosity { count 20 #if (Strips_Light = 2) pretrace_start 1 pretrace_end 1 always_sample off #end } }"
 	expect 0 r.pov $small --parts 2 --local 2 --light; [ -s "$(folder)/light/strips.rca" ] || fail "no radiosity"
+	# A film's light is that of its first frame, with photons and radiosity both.
+	scene f.pov "$blur" "$light global_settings { photons { count 3000 #if (Strips_Light = 1) save_file \"strips.ph\" #end #if (Strips_Light = 2) load_file \"strips.ph\" #end }
+		radiosity { count 20 #if (Strips_Light = 2) pretrace_start 1 pretrace_end 1 always_sample off #end } } $glass #debug concat(\"frame \", str(frame_number, 0, 0), \"\\n\")"
+	expect 0 f.pov +W24 +H18 +KFI1 +KFF3 --parts 2 --local 2 --light; dir=$(folder)
+	grep -q "frame 1" "$dir/log/light.txt" || fail "the light of no frame"
+	grep -q "frame [23]" "$dir/log/light.txt" && fail "the light of other frames too"
 	scene t.pov "$blur"; expect 1 t.pov $small --parts 2 --local 1 --light; says "saved neither photons" ;;
 resume)
 	# A part that fails, and fails again, is named with the command that renders it; no picture until it is there; nothing is rendered twice.

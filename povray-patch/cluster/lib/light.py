@@ -26,13 +26,13 @@ def make_light(sub):
 	# A pilot of one block: the pretrace is done for the whole picture, and then hardly a pixel. Photons are saved by another
 	# process, of one pixel, because a pilot does not save them.
 	pilot = {"TILT_LENS_PILOT": f"1,2,0.001,{folder}/pilot", **({"TILT_LENS_PILOT_WRITES": "1"} if sub["may_write"] else {})}
-	words = _words(sub, 1) + ["+WT1", "+GA"]
+	words = ["+WT1", "+GA", f"+O{folder}/pixel"]
 	if sub["frames"]:
 		words += [f"+SF{sub['frames'][0]}", f"+EF{sub['frames'][0]}"]
-	_run(sub, words + ["+SC2", "+EC2", "+SR2", "+ER2", f"+O{folder}/pixel"], log, {})
+	_run(sub, _words(sub, 1) + words + ["+SC2", "+EC2", "+SR2", "+ER2"], log, {})
 	if re.search(r"\bradiosity\b", _text(sub)):
 		photons = os.path.exists(f"{folder}/{PHOTONS}")
-		_run(sub, (_words(sub, 2) if photons else words) + ["+WT1", "+GA", "+RFO", f"+RF{folder}/{RADIOSITY}", f"+O{folder}/pixel"], log, pilot)
+		_run(sub, _words(sub, 2 if photons else 1) + words + ["+RFO", f"+RF{folder}/{RADIOSITY}"], log, pilot)
 	if not any(os.path.exists(f"{folder}/{name}") for name in (PHOTONS, RADIOSITY)):
 		raise refused("--light: the scene saved neither photons (photons { save_file \"strips.ph\" } with Strips_Light = 1) nor radiosity; "
 			"povray-strips --help shows what to write")
