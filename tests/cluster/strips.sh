@@ -81,7 +81,10 @@ missing)
 	expect 0 s.pov $small --parts 2 --dry-run; prints "2 files of the scene"; prints "Not submitted"; [ ! -e s.strips ] || fail "a dry run leaves a folder"
 	scene w.pov "$blur" '#fopen Log "log.txt" write'
 	expect 1 w.pov $small --parts 2 --local 2; says "log.txt"; says "scene-may-write"
-	expect 0 w.pov $small --parts 2 --local 2 --scene-may-write ;;
+	expect 0 w.pov $small --parts 2 --local 2 --scene-may-write
+	# What it writes is none of its files, whatever stands in it.
+	scene w.pov "$blur" '#declare Name = "b.txt"; #fopen A "a.txt" append #write(A, "x") #fopen B Name append #write(B, "x")'
+	expect 0 w.pov +W16 +H12 --equal-rows --parts 2 --local 1 --scene-may-write; prints "1 files of the scene"; [ -s a.txt ] && [ -s b.txt ] || fail "not written" ;;
 same)
 	# Blur and adaptive numbers of samples: what a pixel gets depends on its neighbours in the other strip. 49 rows: no equal strips.
 	scene s.pov "$blur"
@@ -115,6 +118,25 @@ ini)
 	"$bin/povray" s.ini +Oone.png -D +WT1 > one.log 2>&1 || fail "one: $(tail -3 one.log)"
 	expect 0 s.ini --parts 2 --local 2 --pilot-time 0.2s; pixels one.png picture.png "ini"
 	grep -q 'a folder/colour.inc' picture.strips/*/submission.json || fail "the included file is not among the scene's" ;;
+words)
+	# Words are what POV-Ray makes of them: sections and switches in ini files, its names of frames, one frame and one pixel looked at.
+	scene s.pov perspective '#debug concat("frame ", str(frame_number, 0, 0), "\n")'
+	dry="--parts 2 --dry-run"
+	printf '+W40 +H30 +Oswitch\n[low]\nOutput_File_Name=low.png\n[high]\nOutput_File_Name=high.png\n[part]\nSubset_Start_Frame=2\n[row]\n+SR3\n' > f.ini
+	expect 0 s.pov f.ini $dry; prints "40 x 30"; prints "into $work/switch.png"
+	expect 0 s.pov 'f.ini[low]' $dry; prints "into $work/low.png"
+	expect 2 s.pov 'f.ini[part]' +KFF3 $dry; says "Subset_Start_Frame=2' in an ini file"
+	expect 2 s.pov 'f.ini[row]' $dry; says "Start_Row=3' in an ini file"
+	printf '#!/bin/sh\n%s "$@" 2>&1 | tee -a %s/said\n' "$bin/povray" "$work" > pov; chmod +x pov
+	expect 0 s.pov +W8 +H8 +KFI1 +KFF4 --povray ./pov --dry-run; grep -q "frame 1" said || fail "no frame is looked at"
+	grep -q "frame [234]" said && fail "all frames are looked at"
+	mkdir one two
+	one one/f.png s.pov +W8 +H8 +KFI8 +KFF9 +KC; expect 0 s.pov +W8 +H8 +KFI8 +KFF9 +KC --local 1 +Otwo/f.png
+	one one/g.png s.pov +W8 +H8 +KFI5 +KFF5; expect 0 s.pov +W8 +H8 +KFI5 +KFF5 --local 1 +Otwo/g.png
+	[ "$(ls one)" = "$(ls two | grep png)" ] || fail "names: $(ls one two)"
+	for frame in f08 f09 g5; do pixels one/$frame.png two/$frame.png "$frame"; done
+	one one.png s.pov +W1 +H9; expect 0 s.pov +W1 +H9 --parts 2 --local 1 --equal-rows; pixels one.png s.png "one pixel wide"
+	expect 0 s.pov +W9 +H1 $dry; prints "9 x 1 in 1 parts" ;;
 film)
 	# Frames as tasks, then frames in strips; clocks and names are POV-Ray's.
 	scene s.pov "$blur"

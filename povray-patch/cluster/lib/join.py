@@ -22,7 +22,7 @@ def join(sub, script):
 	for frame in frames:
 		numbers = [i for i, unit in enumerate(cut["units"]) if unit["frame"] == frame]
 		_check_rows([cut["units"][i] for i in numbers], sub["height"])
-		target = frame_name(sub["output"], frame, sub["last_frame"])
+		target = frame_name(sub["output"], frame, sub["digits"])
 		_check_target(sub, target, joined)
 		done = subprocess.run([sub["picture_rows"], "join", str(sub["height"]), target] + [part_file(sub, i) for i in numbers],
 			stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
@@ -31,7 +31,7 @@ def join(sub, script):
 		joined[target] = stamp(target)
 		write_json(f"{sub['folder']}/joined.json", joined)
 	print(balance_text(sub, cut))
-	print(f"{sub['output'] if frames == [None] else frame_name(sub['output'], frames[0], sub['last_frame']) + ' and so on'}: joined from {len(cut['units'])} parts")
+	print(f"{sub['output'] if frames == [None] else frame_name(sub['output'], frames[0], sub['digits']) + ' and so on'}: joined from {len(cut['units'])} parts")
 
 
 def _check_rows(units, height):
