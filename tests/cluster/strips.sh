@@ -169,6 +169,11 @@ light)
 	expect 0 f.pov +W24 +H18 +KFI1 +KFF3 --parts 2 --local 2 --light; dir=$(folder)
 	grep -q "frame 1" "$dir/log/light.txt" || fail "the light of no frame"
 	grep -q "frame [23]" "$dir/log/light.txt" && fail "the light of other frames too"
+	# Another camera ends after the pretrace too; and words with folders that have spaces, in an ini file beside, are meant from here.
+	mkdir "a folder"; echo '#declare Other = 1;' > "a folder/other.inc"; printf 'Library_Path="a folder"\n' > "a folder/o.ini"
+	scene "a folder/o.pov" "perspective" "$light global_settings { radiosity { count 20 #if (Strips_Light = 2) pretrace_start 1 pretrace_end 1 always_sample off #end } } #include \"other.inc\""
+	expect 0 "a folder/o.pov" "a folder/o.ini" +W400 +H300 '+L"a folder"' '+O"a folder/o.png"' --parts 2 --local 2 --light
+	dir=$(folder); [ -s "$dir/light/strips.rca" ] || fail "no radiosity"; grep -q "Frontend halted" "$dir/log/light.txt" || fail "the first job renders the picture"
 	scene t.pov "$blur"; expect 1 t.pov $small --parts 2 --local 1 --light; says "saved neither photons" ;;
 resume)
 	# A part that fails, and fails again, is named with the command that renders it; no picture until it is there; nothing is rendered twice.
