@@ -236,7 +236,17 @@ interrupt)
 	[ $got = 143 ] || fail "exit code $got, expected 143"
 	[ -z "$(ls tmp)" ] || fail "left in TMPDIR: $(ls tmp)"
 	ps -eo args | grep -v grep | grep "$bin/povray.*$work" && fail "a POV-Ray goes on"
-	[ ! -e s.png ] || fail "a picture" ;;
+	[ ! -e s.png ] || fail "a picture"
+	# In the join: nothing is left beside the picture, and the join can be done again, were the picture there or not.
+	expect 0 s.pov +W24 +H18 --parts 2 --local 1 --equal-rows +Oj.png; dir=$(folder)
+	rows=$(sed -n 's/.*"picture_rows": "\(.*\)".*/\1/p' "$dir/submission.json")
+	sed -i "s|\"picture_rows\": .*|\"picture_rows\": \"$work/rows\",|" "$dir/submission.json"
+	for moment in ': > "$3.$$.new"' '%s "$@"'; do
+		printf "#!/bin/sh\n$moment\nkill -TERM \$PPID\nexec sleep 5\n" "$rows" > rows; chmod +x rows
+		expect 143 --join "$dir"; [ -z "$(ls | grep 'new$')" ] || fail "left: $(ls)"
+	done
+	printf '#!/bin/sh\nexec %s "$@"\n' "$rows" > rows
+	expect 0 --join "$dir"; [ -z "$(find . -name '*.new')" ] || fail "left: $(find . -name '*.new')" ;;
 balance)
 	# Issue 18: the longest part at most 1.3 times the mean where equal rows give 2 or more. A row's cost is the mean of 12 blocks of
 	# the pilot; where cost jumps, it jumps between two rows of blocks.
