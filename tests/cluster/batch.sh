@@ -29,7 +29,15 @@ usage)
 	echo 'a --square 25' > list.txt
 	expect 2 list.txt --local 1 --out list.txt; says "the results need a folder"
 	expect 3 list.txt --local 1 --tiltcal ./nowhere; says "cannot be run"
-	expect 0 list.txt --dry-run; prints "1 cameras, 1 to calibrate"; [ ! -e list ] || fail "a dry run leaves a folder" ;;
+	expect 0 list.txt --dry-run; prints "1 cameras, 1 to calibrate"; [ ! -e list ] || fail "a dry run leaves a folder"
+	# Jobs of a run before: none where there is no Slurm or they are forgotten; not known where it does not answer.
+	mkdir path list; for tool in sh env; do ln -s "$(command -v $tool)" path/; done; ln -s "$(python3 -c "import sys; print(sys.executable)")" path/python3
+	echo '["7"]' > list/jobs.json
+	here_only() { (PATH=$work/path "$strips" list.txt --local 1 > out 2> err); [ $? = 1 ] || fail "exit code, expected 1"; }
+	here_only; prints "0 of 1 cameras are done"
+	squeue() { printf '#!/bin/sh\necho "slurm_load_jobs error: %s" >&2\nexit 1\n' "$1" > path/squeue; chmod +x path/squeue; }
+	squeue "Invalid job id specified"; here_only; prints "0 of 1 cameras are done"
+	squeue "Unable to contact slurm controller (connect failure)"; here_only; says "squeue does not say whether job 7 .*Unable to contact" ;;
 real)
 	# Two cameras, and one whose photographs are not there: one table, the third named with the command that calibrates it alone.
 	write_list > list.txt

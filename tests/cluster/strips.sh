@@ -81,7 +81,10 @@ missing)
 	expect 0 s.pov $small --parts 2 --dry-run; prints "2 files of the scene"; prints "Not submitted"; [ ! -e s.strips ] || fail "a dry run leaves a folder"
 	scene w.pov "$blur" '#fopen Log "log.txt" write'
 	expect 1 w.pov $small --parts 2 --local 2; says "log.txt"; says "scene-may-write"
-	expect 0 w.pov $small --parts 2 --local 2 --scene-may-write ;;
+	expect 0 w.pov $small --parts 2 --local 2 --scene-may-write
+	# What it writes is none of its files, whatever stands in it.
+	scene w.pov "$blur" '#declare Name = "b.txt"; #fopen A "a.txt" append #write(A, "x") #fopen B Name append #write(B, "x")'
+	expect 0 w.pov +W16 +H12 --equal-rows --parts 2 --local 1 --scene-may-write; prints "1 files of the scene"; [ -s a.txt ] && [ -s b.txt ] || fail "not written" ;;
 same)
 	# Blur and adaptive numbers of samples: what a pixel gets depends on its neighbours in the other strip. 49 rows: no equal strips.
 	scene s.pov "$blur"
@@ -115,6 +118,25 @@ ini)
 	"$bin/povray" s.ini +Oone.png -D +WT1 > one.log 2>&1 || fail "one: $(tail -3 one.log)"
 	expect 0 s.ini --parts 2 --local 2 --pilot-time 0.2s; pixels one.png picture.png "ini"
 	grep -q 'a folder/colour.inc' picture.strips/*/submission.json || fail "the included file is not among the scene's" ;;
+words)
+	# Words are what POV-Ray makes of them: sections and switches in ini files, its names of frames, one frame and one pixel looked at.
+	scene s.pov perspective '#debug concat("frame ", str(frame_number, 0, 0), "\n")'
+	dry="--parts 2 --dry-run"
+	printf '+W40 +H30 +Oswitch\n[low]\nOutput_File_Name=low.png\n[high]\nOutput_File_Name=high.png\n[part]\nSubset_Start_Frame=2\n[row]\n+SR3\n' > f.ini
+	expect 0 s.pov f.ini $dry; prints "40 x 30"; prints "into $work/switch.png"
+	expect 0 s.pov 'f.ini[low]' $dry; prints "into $work/low.png"
+	expect 2 s.pov 'f.ini[part]' +KFF3 $dry; says "Subset_Start_Frame=2' in an ini file"
+	expect 2 s.pov 'f.ini[row]' $dry; says "Start_Row=3' in an ini file"
+	printf '#!/bin/sh\n%s "$@" 2>&1 | tee -a %s/said\n' "$bin/povray" "$work" > pov; chmod +x pov
+	expect 0 s.pov +W8 +H8 +KFI1 +KFF4 --povray ./pov --dry-run; grep -q "frame 1" said || fail "no frame is looked at"
+	grep -q "frame [234]" said && fail "all frames are looked at"
+	mkdir one two
+	one one/f.png s.pov +W8 +H8 +KFI8 +KFF9 +KC; expect 0 s.pov +W8 +H8 +KFI8 +KFF9 +KC --local 1 +Otwo/f.png
+	one one/g.png s.pov +W8 +H8 +KFI5 +KFF5; expect 0 s.pov +W8 +H8 +KFI5 +KFF5 --local 1 +Otwo/g.png
+	[ "$(ls one)" = "$(ls two | grep png)" ] || fail "names: $(ls one two)"
+	for frame in f08 f09 g5; do pixels one/$frame.png two/$frame.png "$frame"; done
+	one one.png s.pov +W1 +H9; expect 0 s.pov +W1 +H9 --parts 2 --local 1 --equal-rows; pixels one.png s.png "one pixel wide"
+	expect 0 s.pov +W9 +H1 $dry; prints "9 x 1 in 1 parts" ;;
 film)
 	# Frames as tasks, then frames in strips; clocks and names are POV-Ray's.
 	scene s.pov "$blur"
@@ -141,6 +163,17 @@ light)
 	python3 "$here/../support/png_pixels.py" none.png dark.png > same.txt 2>&1 && fail "the photons change nothing: nothing shown"
 	scene r.pov "$blur" "$light global_settings { radiosity { count 20 #if (Strips_Light = 2) pretrace_start 1 pretrace_end 1 always_sample off #end } }"
 	expect 0 r.pov $small --parts 2 --local 2 --light; [ -s "$(folder)/light/strips.rca" ] || fail "no radiosity"
+	# A film's light is that of its first frame, with photons and radiosity both.
+	scene f.pov "$blur" "$light global_settings { photons { count 3000 #if (Strips_Light = 1) save_file \"strips.ph\" #end #if (Strips_Light = 2) load_file \"strips.ph\" #end }
+		radiosity { count 20 #if (Strips_Light = 2) pretrace_start 1 pretrace_end 1 always_sample off #end } } $glass #debug concat(\"frame \", str(frame_number, 0, 0), \"\\n\")"
+	expect 0 f.pov +W24 +H18 +KFI1 +KFF3 --parts 2 --local 2 --light; dir=$(folder)
+	grep -q "frame 1" "$dir/log/light.txt" || fail "the light of no frame"
+	grep -q "frame [23]" "$dir/log/light.txt" && fail "the light of other frames too"
+	# Another camera ends after the pretrace too; and words with folders that have spaces, in an ini file beside, are meant from here.
+	mkdir "a folder"; echo '#declare Other = 1;' > "a folder/other.inc"; printf 'Library_Path="a folder"\n' > "a folder/o.ini"
+	scene "a folder/o.pov" "perspective" "$light global_settings { radiosity { count 20 #if (Strips_Light = 2) pretrace_start 1 pretrace_end 1 always_sample off #end } } #include \"other.inc\""
+	expect 0 "a folder/o.pov" "a folder/o.ini" +W400 +H300 '+L"a folder"' '+O"a folder/o.png"' --parts 2 --local 2 --light
+	dir=$(folder); [ -s "$dir/light/strips.rca" ] || fail "no radiosity"; grep -q "Frontend halted" "$dir/log/light.txt" || fail "the first job renders the picture"
 	scene t.pov "$blur"; expect 1 t.pov $small --parts 2 --local 1 --light; says "saved neither photons" ;;
 resume)
 	# A part that fails, and fails again, is named with the command that renders it; no picture until it is there; nothing is rendered twice.
@@ -203,7 +236,17 @@ interrupt)
 	[ $got = 143 ] || fail "exit code $got, expected 143"
 	[ -z "$(ls tmp)" ] || fail "left in TMPDIR: $(ls tmp)"
 	ps -eo args | grep -v grep | grep "$bin/povray.*$work" && fail "a POV-Ray goes on"
-	[ ! -e s.png ] || fail "a picture" ;;
+	[ ! -e s.png ] || fail "a picture"
+	# In the join: nothing is left beside the picture, and the join can be done again, were the picture there or not.
+	expect 0 s.pov +W24 +H18 --parts 2 --local 1 --equal-rows +Oj.png; dir=$(folder)
+	rows=$(sed -n 's/.*"picture_rows": "\(.*\)".*/\1/p' "$dir/submission.json")
+	sed -i "s|\"picture_rows\": .*|\"picture_rows\": \"$work/rows\",|" "$dir/submission.json"
+	for moment in ': > "$3.$$.new"' '%s "$@"'; do
+		printf "#!/bin/sh\n$moment\nkill -TERM \$PPID\nexec sleep 5\n" "$rows" > rows; chmod +x rows
+		expect 143 --join "$dir"; [ -z "$(ls | grep 'new$')" ] || fail "left: $(ls)"
+	done
+	printf '#!/bin/sh\nexec %s "$@"\n' "$rows" > rows
+	expect 0 --join "$dir"; [ -z "$(find . -name '*.new')" ] || fail "left: $(find . -name '*.new')" ;;
 balance)
 	# Issue 18: the longest part at most 1.3 times the mean where equal rows give 2 or more. A row's cost is the mean of 12 blocks of
 	# the pilot; where cost jumps, it jumps between two rows of blocks.

@@ -8,6 +8,7 @@ import signal
 import socket
 import subprocess
 import sys
+import time
 
 from version import VERSION
 
@@ -98,8 +99,8 @@ def catch_signals():
 		signal.signal(number, raise_it)
 
 
-def run(command, log=None, env=None, cwd=None):
-	"""A child to its end; its exit code. It is ended when this program is."""
+def run(command, log=None, env=None, cwd=None, enough=None):
+	"""A child to its end; its exit code. It is ended when this program is, and when `enough()` is true."""
 	out = open(log, "ab") if log else subprocess.DEVNULL
 	try:
 		child = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=out, stderr=subprocess.STDOUT, cwd=cwd,
@@ -110,6 +111,11 @@ def run(command, log=None, env=None, cwd=None):
 		if log:
 			out.close()
 	try:
+		while enough and child.poll() is None:
+			if enough():
+				child.terminate()
+				break
+			time.sleep(0.1)
 		return child.wait()
 	except BaseException:
 		child.terminate()

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """The last job: one picture, or a film's frames, when every part of this submission is there."""
+import glob
 import os
 import shlex
 import subprocess
@@ -22,16 +23,24 @@ def join(sub, script):
 	for frame in frames:
 		numbers = [i for i, unit in enumerate(cut["units"]) if unit["frame"] == frame]
 		_check_rows([cut["units"][i] for i in numbers], sub["height"])
-		target = frame_name(sub["output"], frame, sub["last_frame"])
+		target = frame_name(sub["output"], frame, sub["digits"])
 		_check_target(sub, target, joined)
-		done = subprocess.run([sub["picture_rows"], "join", str(sub["height"]), target] + [part_file(sub, i) for i in numbers],
+		made = f"{sub['folder']}/{os.path.basename(target)}"
+		for left in glob.glob(f"{glob.escape(made)}.*.new"):    # a join before was ended
+			os.unlink(left)
+		done = subprocess.run([sub["picture_rows"], "join", str(sub["height"]), made] + [part_file(sub, i) for i in numbers],
 			stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
 		if done.returncode != 0:
 			raise Failure(3, f"{done.stderr.strip()}; the parts stay, join again with\n  {command(script, '--join', sub)}")
-		joined[target] = stamp(target)
+		# Known as ours before it is there, so that a join that is ended now may be done again.
+		joined[target] = stamp(made)
 		write_json(f"{sub['folder']}/joined.json", joined)
+		try:
+			os.replace(made, target)
+		except OSError as error:
+			raise file_error(target, error) from None
 	print(balance_text(sub, cut))
-	print(f"{sub['output'] if frames == [None] else frame_name(sub['output'], frames[0], sub['last_frame']) + ' and so on'}: joined from {len(cut['units'])} parts")
+	print(f"{sub['output'] if frames == [None] else frame_name(sub['output'], frames[0], sub['digits']) + ' and so on'}: joined from {len(cut['units'])} parts")
 
 
 def _check_rows(units, height):
@@ -48,7 +57,7 @@ def _check_rows(units, height):
 def _check_target(sub, target, joined):
 	"""What somebody else wrote since the submission, such as a newer one, is not replaced by an older picture."""
 	now = stamp(target)
-	if now != joined.get(target, sub["before"].get(target)):
+	if now not in (joined.get(target), sub["before"].get(target)):
 		raise refused(f"{target}: it was written since this submission began, by a newer one perhaps; move it away and run\n"
 			f"  povray-strips --join {shlex.quote(sub['folder'])}")
 	try:

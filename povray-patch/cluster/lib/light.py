@@ -4,7 +4,8 @@ import os
 import re
 
 from common import refused, run
-from scene import command, error_lines
+from povray_options import error_lines, is_ini, one_pixel, quoted
+from scene import command
 
 PHOTONS, RADIOSITY = "strips.ph", "strips.rca"
 
@@ -23,16 +24,16 @@ def make_light(sub):
 	for old in os.listdir(folder):
 		os.unlink(os.path.join(folder, old))
 	log = f"{sub['folder']}/log/light.txt"
-	# A pilot of one block: the pretrace is done for the whole picture, and then hardly a pixel. Photons are saved by another
-	# process, of one pixel, because a pilot does not save them.
+	# A pilot of one block: the pretrace is done for the whole picture, and then hardly a pixel; a camera without lens samples knows no
+	# pilot, and is ended then. Photons are saved by another process, of one pixel, because a pilot does not save them.
 	pilot = {"TILT_LENS_PILOT": f"1,2,0.001,{folder}/pilot", **({"TILT_LENS_PILOT_WRITES": "1"} if sub["may_write"] else {})}
-	words = _words(sub, 1) + ["+WT1", "+GA"]
+	words = ["+WT1", "+GA", "+O" + quoted(f"{folder}/pixel")]
 	if sub["frames"]:
 		words += [f"+SF{sub['frames'][0]}", f"+EF{sub['frames'][0]}"]
-	_run(sub, words + ["+SC2", "+EC2", "+SR2", "+ER2", f"+O{folder}/pixel"], log, {})
+	_run(sub, _words(sub, 1) + words + one_pixel(sub["width"], sub["height"]), log, {})
 	if re.search(r"\bradiosity\b", _text(sub)):
 		photons = os.path.exists(f"{folder}/{PHOTONS}")
-		_run(sub, (_words(sub, 2) if photons else words) + ["+WT1", "+GA", "+RFO", f"+RF{folder}/{RADIOSITY}", f"+O{folder}/pixel"], log, pilot)
+		_run(sub, _words(sub, 2 if photons else 1) + words + ["+V", "+RFO", "+RF" + quoted(f"{folder}/{RADIOSITY}")], log, pilot, _pretraced)
 	if not any(os.path.exists(f"{folder}/{name}") for name in (PHOTONS, RADIOSITY)):
 		raise refused("--light: the scene saved neither photons (photons { save_file \"strips.ph\" } with Strips_Light = 1) nor radiosity; "
 			"povray-strips --help shows what to write")
@@ -50,7 +51,7 @@ def _text(sub):
 
 
 def _words(sub, step):
-	return [f"Declare=Strips_Light={step}", f"+L{light_folder(sub)}", f"+L{sub['cwd']}"]
+	return [f"Declare=Strips_Light={step}"]
 
 
 def light_words(sub):
@@ -58,7 +59,7 @@ def light_words(sub):
 	if not sub["light"]:
 		return []
 	radiosity = f"{light_folder(sub)}/{RADIOSITY}"
-	return _words(sub, 2) + (["+RFI", f"+RF{radiosity}"] if os.path.exists(radiosity) else [])
+	return _words(sub, 2) + (["+RFI", "+RF" + quoted(radiosity)] if os.path.exists(radiosity) else [])
 
 
 def place(sub):
@@ -66,13 +67,29 @@ def place(sub):
 	scene gives without a folder; the scene's own files are found from there by their whole names and the library paths."""
 	if not sub["light"]:
 		return sub["cwd"], sub["scene"], sub["options"]
-	options = [f"{word[:2]}{os.path.join(sub['cwd'], word[2:])}" if word.startswith("+L") else word for word in sub["options"]]
-	return light_folder(sub), os.path.join(sub["cwd"], sub["scene"]), options
+
+	def there(name):
+		return os.path.join(sub["cwd"], name)
+	libraries = ["+L" + quoted(path) for path in [sub["cwd"], *sub["libraries"]]]
+	options = [quoted(there(word.strip('"'))) if is_ini(word) else word for word in sub["options"]]
+	given = ["+I" + quoted(there(sub["input"]))] if os.path.isfile(there(sub["input"])) else []
+	return light_folder(sub), there(sub["scene"]), libraries + options + given
 
 
-def _run(sub, more, log, env):
+def _pretraced(log):
+	"""Whether the picture itself is begun: the number of pixels begins anew after the pretrace."""
+	numbers = [int(n) for n in re.findall(r"Rendered (\d+) of", log)]
+	return any(after < before for before, after in zip(numbers, numbers[1:]))
+
+
+def _run(sub, more, log, env, enough=None):
 	folder, scene, options = place(sub)
-	code = run(command(sub["povray"], scene, options, more), log, env, folder)
-	if code != 0:
+	began = os.path.getsize(log) if os.path.exists(log) else 0
+
+	def said():
 		with open(log, encoding="utf-8", errors="replace") as file:
-			raise refused(f"the light is not rendered:\n{error_lines(file.read())}")
+			file.seek(began)
+			return file.read()
+	code = run(command(sub["povray"], scene, options, more), log, env, folder, (lambda: enough(said())) if enough else None)
+	if code != 0 and not (enough and enough(said()) and "Frontend halted render" in said()):
+		raise refused(f"the light is not rendered:\n{error_lines(said())}")

@@ -9,7 +9,8 @@ import time
 
 from common import Failure, digest, refused, run, write_json
 from light import light_words, place
-from scene import check_files, command, error_lines
+from povray_options import error_lines, quoted
+from scene import check_files, command
 from submission import describe, is_done, load_cut, part_file, record_file
 
 
@@ -39,7 +40,7 @@ def _render(sub, rows, unit, here):
 	folder = tempfile.mkdtemp(prefix="povray-strips-")
 	try:
 		picture, log = os.path.join(folder, "part" + sub["suffix"]), os.path.join(folder, "log")
-		more = [f"+O{picture}", "+GA", *light_words(sub)]
+		more = ["+O" + quoted(picture), "+GA", *light_words(sub)]
 		if (rows["first"], rows["last"]) != (1, sub["height"]):
 			more += [f"+SR{rows['first']}", f"+ER{rows['last']}"]
 		if rows["frame"] is not None:

@@ -11,7 +11,8 @@ from common import duration, refused, run, usage, write_json
 from cutting import longest
 from pilot import row_costs
 from plan_plot import plot
-from scene import command, error_lines
+from povray_options import error_lines, quoted
+from scene import command
 
 NODES = (1, 2, 4, 8, 16, 32, 64, 128, 256, 512, 1000)
 WIDTHS = (3840, 7680, 15360)
@@ -52,7 +53,7 @@ def measure(sub, script):
 		for share in (1, 2):
 			size = [f"+W{max(2, sub['width'] // share)}", f"+H{max(2, sub['height'] // share)}"]
 			picture = f"{folder}/{share}{sub['suffix']}"
-			more = size + ["+GA", "+WT1", "+SC2", "+EC2", "+SR2", "+ER2", f"+O{picture}"]
+			more = size + ["+GA", "+WT1", "+SC2", "+EC2", "+SR2", "+ER2", "+O" + quoted(picture)]
 			found[share] = _cpu_of(command(sub["povray"], sub["scene"], sub["options"], more), log)
 		join = _cpu_of([sub["picture_rows"], "cut", "1", str(sub["height"]), f"{folder}/1{sub['suffix']}", f"{folder}/joined{sub['suffix']}"], log)
 		python = _cpu_of([sys.executable, script, "--version"], log)

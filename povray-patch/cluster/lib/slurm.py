@@ -65,18 +65,24 @@ def all_or_none(folder):
 
 
 def refuse_active(folder, place, whose):
-	"""Refuses while jobs of jobs.json wait or run."""
-	still = _active(read_json(f"{folder}/jobs.json") or [])
+	"""Refuses while jobs of jobs.json wait or run, and where Slurm does not say."""
+	still = _active(read_json(f"{folder}/jobs.json") or [], folder)
 	if still:
 		raise refused(f"{place}jobs {' '.join(still)} of {whose} still wait or run; cancel them first: scancel {' '.join(still)}")
 
 
-def _active(jobs):
-	"""Those of the jobs that wait or run."""
+def _active(jobs, folder):
+	"""Those of the jobs that wait or run; none where there is no Slurm."""
 	found = []
 	for job in jobs:
-		done = subprocess.run(["squeue", "--noheader", "--format=%i", f"--jobs={job}"], stdin=subprocess.DEVNULL,
-			capture_output=True, text=True, check=False)
+		try:
+			done = subprocess.run(["squeue", "--noheader", "--format=%i", f"--jobs={job}"], stdin=subprocess.DEVNULL,
+				capture_output=True, text=True, check=False)
+		except FileNotFoundError:
+			return []
+		if done.returncode != 0 and "Invalid job id" not in done.stderr:    # so it calls what ended long ago
+			raise refused(f"squeue does not say whether job {job} still waits or runs ({done.stderr.strip()}); try again when it does, "
+				f"or remove {folder}/jobs.json if nothing runs")
 		if done.returncode == 0 and done.stdout.strip():
 			found.append(job)
 	return found
