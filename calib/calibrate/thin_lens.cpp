@@ -52,16 +52,8 @@ bool SameCounts(const Task& task)
 /// RMS of the reprojection if the board stood still between the states; none where no camera has such poses.
 std::optional<double> RmsOfSharedPoses(const Task& task, const std::vector<Vec3<double>>& normals)
 {
-	try
-	{
-		return SolveGeometry(task, { 2, normals, true }).rms;
-	}
-	catch (const Error& e)
-	{
-		if (e.Code() != EXIT_REFUSED)
-			throw;
-		return std::nullopt;
-	}
+	const std::optional<Geometry> shared = SolveGeometryIfDetermined(task, { 2, normals, true });
+	return shared ? std::optional(shared->rms) : std::nullopt;
 }
 
 /// The camera without distortion, fitted as such, and the lens beside it.

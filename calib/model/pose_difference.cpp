@@ -2,7 +2,6 @@
 
 #include "model/pose_difference.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace tiltcal

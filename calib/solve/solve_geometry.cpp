@@ -339,11 +339,7 @@ Geometry SolveGeometry(const Task& task, const GeometryOptions& options)
 	return g;
 }
 
-namespace
-{
-
-/// None where the photographs do not determine so many terms.
-std::optional<Geometry> Determined(const Task& task, const GeometryOptions& options)
+std::optional<Geometry> SolveGeometryIfDetermined(const Task& task, const GeometryOptions& options)
 {
 	try
 	{
@@ -357,8 +353,6 @@ std::optional<Geometry> Determined(const Task& task, const GeometryOptions& opti
 	}
 }
 
-}
-
 Geometry SelectGeometry(const Task& task, GeometryOptions options)
 {
 	options.terms = 0;
@@ -368,7 +362,7 @@ Geometry SelectGeometry(const Task& task, GeometryOptions options)
 	for (const int terms : { 1, 2, 4, 5 })
 	{
 		options.terms = terms;
-		const std::optional<Geometry> next = Determined(task, options);
+		const std::optional<Geometry> next = SolveGeometryIfDetermined(task, options);
 		if (!next || next->rms > 0.985 * best.rms || !IsDistorted(*next))
 			break;
 		best = *next;

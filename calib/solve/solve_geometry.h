@@ -7,6 +7,8 @@
 
 #include <ceres/problem.h>
 
+#include <optional>
+
 namespace tiltcal
 {
 
@@ -32,6 +34,9 @@ struct GeometryOptions
 /// determine (sigma above 2 % of the picture's width) is held near the picture's centre, to those 2 %.
 /// Throws Refused when w is not determined, naming what to photograph.
 Geometry SolveGeometry(const Task& task, const GeometryOptions& options);
+
+/// The same; none where it is refused.
+std::optional<Geometry> SolveGeometryIfDetermined(const Task& task, const GeometryOptions& options);
 
 /// The smallest distortion model after which the next larger one lowers the RMS by less
 /// than 1.5 % or has no coefficient that is 2 sigma from 0: coefficients that only fit noise spoil the picture beyond the board.
