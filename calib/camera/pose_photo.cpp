@@ -26,7 +26,8 @@ const int WEIGHING_ROUNDS = 2;
 cv::Mat Encoded(const cv::Mat& photo)
 {
 	cv::Mat grey = Luminance(photo).clone();
-	grey.forEach<float>([](float& value, const int*) { value = static_cast<float>(EncodeSrgb(value)); });
+	const double gain = DisplayGain(grey);
+	grey.forEach<float>([gain](float& value, const int*) { value = static_cast<float>(EncodeSrgb(gain * value)); });
 	return grey;
 }
 
@@ -161,7 +162,8 @@ cv::Mat DrawPosePoints(const cv::Mat& photo, const PhotoPose& solved)
 	const int SHIFT = 4;   // sub-pixel bits of OpenCV's drawing
 	const auto fixed = [](double x, double y) { return cv::Point(static_cast<int>(std::lround(x * 16)), static_cast<int>(std::lround(y * 16))); };
 	cv::Mat canvas;
-	cv::cvtColor(ToDisplay(Luminance(photo)), canvas, cv::COLOR_GRAY2BGR);
+	const cv::Mat grey = Luminance(photo);
+	cv::cvtColor(ToDisplay(grey, DisplayGain(grey)), canvas, cv::COLOR_GRAY2BGR);
 	canvas.convertTo(canvas, CV_8UC3, 0.6, 40);
 	for (size_t i = 0; i < solved.points.size(); ++i)
 	{

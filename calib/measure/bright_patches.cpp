@@ -3,6 +3,7 @@
 #include "measure/bright_patches.h"
 
 #include <tiltcal/photo.h>
+#include "measure/clipped.h"
 #include "measure/corner_grid.h"
 #include <tiltcal/error.h>
 #include "picture/image_io.h"
@@ -30,19 +31,8 @@ const double OUTER_SHARE = 0.08;
 
 struct Pictures
 {
-	cv::Mat grey, brightest;   ///< of the channels
+	cv::Mat grey, clipped;   ///< luminance; 255 where a channel is clipped, or empty
 };
-
-Pictures Split(const cv::Mat& linear)
-{
-	Pictures p{ Luminance(linear), linear };
-	if (linear.channels() == 1)
-		return p;
-	std::vector<cv::Mat> channels;
-	cv::split(linear, channels);
-	p.brightest = cv::max(channels[0], cv::max(channels[1], channels[2]));
-	return p;
-}
 
 /// The pixels of one patch as they come.
 struct Pixels
@@ -56,7 +46,7 @@ struct Pixels
 		values.push_back(p.grey.at<float>(y, x));
 		u += x;
 		v += y;
-		clipped += p.brightest.at<float>(y, x) > CLIPPED;
+		clipped += !p.clipped.empty() && p.clipped.at<uchar>(y, x) != 0;
 	}
 
 	bool Clipped() const { return 20 * clipped > values.size(); }
@@ -161,7 +151,7 @@ void MeasureSquares(const Pictures& pictures, const Board& board, Photo& photo)
 		}
 	const auto brightness = [&](int parity)
 	{
-		std::vector<double> values(size_t(clipped[parity]), 1);
+		std::vector<double> values(size_t(clipped[parity]), HUGE_VAL);
 		for (const BrightPatch& p : patches[parity])
 			values.push_back(p.value);
 		return values.empty() ? 0 : Median(values);
@@ -190,6 +180,24 @@ bool ShowsAPattern(const std::vector<BrightPatch>& cells, int columns)
 	return judged > 0 && double(steep) > MOST_STEEP * double(judged);
 }
 
+/// ClippedPixels of a plain bright surface. One that is clipped nearly everywhere has no darker pixels whose noise tells its white level from a
+/// render's even light; no lens lights half of a picture to the very same value.
+cv::Mat ClippedField(const cv::Mat& linear)
+{
+	cv::Mat clipped = ClippedPixels(linear);
+	std::vector<cv::Mat> channels;
+	cv::split(linear, channels);
+	for (const cv::Mat& channel : channels)
+	{
+		double most = 0;
+		cv::minMaxLoc(channel, nullptr, &most);
+		const cv::Mat here = channel >= most;
+		if (2 * size_t(cv::countNonZero(here)) > channel.total())
+			clipped = clipped.empty() ? here : cv::Mat(clipped | here);
+	}
+	return clipped;
+}
+
 }
 
 void MeasureWhite(const cv::Mat& linear, const Board& board, Photo& photo)
@@ -197,12 +205,12 @@ void MeasureWhite(const cv::Mat& linear, const Board& board, Photo& photo)
 	photo.white.clear();
 	photo.white_saturated = 0;
 	if (board.IsCheckerboard())
-		MeasureSquares(Split(linear), board, photo);
+		MeasureSquares({ Luminance(linear), ClippedPixels(linear) }, board, photo);
 }
 
 std::vector<BrightPatch> MeasureFlatField(const cv::Mat& linear, const std::string& file)
 {
-	const Pictures pictures = Split(linear);
+	const Pictures pictures{ Luminance(linear), ClippedField(linear) };
 	const int cell = std::max(4, linear.cols / 40), columns = linear.cols / cell, rows = linear.rows / cell;
 	std::vector<BrightPatch> patches, all;
 	int clipped = 0;

@@ -16,11 +16,8 @@
 namespace tiltcal
 {
 
-/// A pixel whose brightest channel is above this (linear light) is clipped.
-const double CLIPPED = 0.995;
-
 /// Fills photo.white and photo.white_saturated: the interiors of the board's white squares, the outermost included, as
-/// far as no edge's blur reaches. Grids of circles have none.
+/// far as no edge's blur reaches, but those that are clipped (measure/clipped.h). Grids of circles have none.
 /// `linear`: CV_32FC1 or CV_32FC3; `photo` has its corners and edges.
 void MeasureWhite(const cv::Mat& linear, const Board& board, Photo& photo);
 

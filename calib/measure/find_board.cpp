@@ -177,14 +177,7 @@ cv::Mat Flatten(const cv::Mat& picture, double window)
 
 cv::Mat ForDetector(const cv::Mat& grey)
 {
-	std::vector<float> values;
-	const int step = std::max(1, static_cast<int>(std::sqrt(grey.total() / 1e5)));
-	for (int y = 0; y < grey.rows; y += step)
-		for (int x = 0; x < grey.cols; x += step)
-			values.push_back(grey.at<float>(y, x));
-	const size_t k = values.size() * 99 / 100;
-	std::nth_element(values.begin(), values.begin() + static_cast<long>(k), values.end());
-	return ToDisplay(grey, 0.9 / std::max(values[k], 1e-6f));
+	return ToDisplay(grey, 0.9 / std::max(BrightestHundredth(grey), 1e-6));
 }
 
 std::vector<cv::Point2f> FindCheckerboard(const cv::Mat& grey, const Board& board, const std::string& file)

@@ -137,6 +137,35 @@ cv::Mat Luminance(const cv::Mat& linear)
 	return grey;
 }
 
+namespace
+{
+
+/// The light that a share of the pixels exceeds not.
+double LightQuantile(const cv::Mat& linear, double share)
+{
+	std::vector<float> values;
+	const int step = std::max(1, static_cast<int>(std::sqrt(double(linear.total()) / 1e5)));
+	for (int y = 0; y < linear.rows; y += step)
+		for (int x = 0; x < linear.cols; x += step)
+			for (int c = 0; c < linear.channels(); ++c)
+				values.push_back(linear.ptr<float>(y)[x * linear.channels() + c]);
+	const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * double(values.size()));
+	std::nth_element(values.begin(), at, values.end());
+	return *at;
+}
+
+}
+
+double BrightestHundredth(const cv::Mat& linear) { return LightQuantile(linear, 0.99); }
+
+double DisplayGain(const cv::Mat& linear)
+{
+	const double DARK = 0.01;   // a hundredth of white: 10 % grey in sRGB
+	const double brightest = BrightestHundredth(linear);
+	const bool ordinary = brightest > DARK && LightQuantile(linear, 0.5) <= 1;
+	return ordinary || !(brightest > 0) ? 1 : 1 / brightest;
+}
+
 cv::Mat ToDisplay(const cv::Mat& linear, double gain)
 {
 	// A table of 4096 steps in the square root of the light is finer than 8 bits everywhere.

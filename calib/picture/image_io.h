@@ -33,6 +33,13 @@ cv::Mat Luminance(const cv::Mat& linear);
 /// Value of a CV_32FC1 picture at a point in it (0 <= x <= cols - 1, 0 <= y <= rows - 1), between its four pixels.
 double Bilinear(const cv::Mat& image, double x, double y);
 
+/// The light that 1 % of the pixels exceed; of all channels, a part of the pixels stands for all. CV_32F.
+double BrightestHundredth(const cv::Mat& linear);
+
+/// What to show a picture with: 1, but where most of it is brighter than white or all of it is dark, as the counts of a sensor and other units are, what
+/// makes its brightest hundredth white.
+double DisplayGain(const cv::Mat& linear);
+
 /// 8-bit sRGB picture of `linear` times `gain`, CV_8UC1 or CV_8UC3.
 cv::Mat ToDisplay(const cv::Mat& linear, double gain = 1);
 

@@ -357,18 +357,43 @@ TEST(BrightPatches, ASceneIsNoFlatField)
 	EXPECT_EQ(CodeOf([&] { MeasureFlatField(board, "board"); }), EXIT_REFUSED);
 }
 
+// A wall of `light` under a fall-off, with noise of 1 % of it, cut at `white`.
+cv::Mat Wall(double light, double white)
+{
+	std::mt19937 random(4);
+	std::normal_distribution<float> noise(0, float(0.01 * light));
+	cv::Mat wall(300, 400, CV_32FC1);
+	for (int y = 0; y < wall.rows; ++y)
+		for (int x = 0; x < wall.cols; ++x)
+		{
+			const double r = std::hypot(x - 199.5, y - 149.5) / 250;
+			wall.at<float>(y, x) = std::min(float(light * std::pow(1 + 0.33 * r * r, -2)) + noise(random), float(white));
+		}
+	return wall;
+}
+
 TEST(BrightPatches, ClippedAndDarkFlatFieldsAreRefused)
 {
-	const cv::Mat good(300, 400, CV_32FC1, cv::Scalar(0.7)), clipped(300, 400, CV_32FC1, cv::Scalar(1)), dark(300, 400, CV_32FC1, cv::Scalar(0.001));
+	const auto code = [](const cv::Mat& picture) { return CodeOf([&] { MeasureFlatField(picture, "x"); }); };
+	const cv::Mat good = Wall(0.7, 1);
 	EXPECT_EQ(MeasureFlatField(good, "x").size(), 40u * 30u);
-	EXPECT_EQ(CodeOf([&] { MeasureFlatField(clipped, "x"); }), EXIT_REFUSED);
-	EXPECT_EQ(CodeOf([&] { MeasureFlatField(dark, "x"); }), EXIT_REFUSED);
+	EXPECT_EQ(code(Wall(3, 1)), EXIT_REFUSED);
+	EXPECT_EQ(code(0.001 * good), EXIT_REFUSED);
 	// One channel that is clipped spoils the colour, and with it the luminance.
-	const cv::Mat red(300, 400, CV_32FC3, cv::Scalar(0.3, 0.3, 1));
-	EXPECT_EQ(CodeOf([&] { MeasureFlatField(red, "x"); }), EXIT_REFUSED);
+	cv::Mat red;
+	cv::merge(std::vector<cv::Mat>{ 0.4 * good, 0.4 * good, Wall(3, 1) }, red);
+	EXPECT_EQ(code(red), EXIT_REFUSED);
 	cv::Mat partly = good.clone();
 	partly.colRange(0, 100).setTo(1);
 	EXPECT_EQ(MeasureFlatField(partly, "x").size(), 30u * 30u);
+}
+
+// The white level is the file's own: 12 bits in a file of 16, floats in counts of a sensor.
+TEST(BrightPatches, FlatFieldsOfAnyUnit)
+{
+	EXPECT_EQ(MeasureFlatField(Wall(3000, 4095), "x").size(), 40u * 30u);
+	for (const double white : { 4095.0, 4095 / 65535.0 })
+		EXPECT_EQ(CodeOf([&] { MeasureFlatField(Wall(3 * white, white), "x"); }), EXIT_REFUSED) << white;
 }
 
 // The light of the pattern's white, 0.8, times what TakePicture darkens; blurred edges must not reach into a patch. 0.3 %: the noise is 1 % a pixel, and
@@ -393,6 +418,9 @@ TEST(BrightPatches, WhiteSquaresAreAsBrightAsTheyWerePainted)
 	MeasureEdges(picture, board, photo);
 	MeasureWhite(picture, board, photo);
 	ASSERT_GE(photo.white.size(), 20u);   // of 31, some outside of the picture
+	Photo counts = photo;
+	MeasureWhite(4095 * picture, board, counts);
+	EXPECT_EQ(counts.white.size(), photo.white.size()) << "in counts of a sensor";
 	double squares = 0;
 	for (const BrightPatch& p : photo.white)
 	{

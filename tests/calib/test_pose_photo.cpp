@@ -106,6 +106,25 @@ TEST(PosePhoto, FourClicksFindTheOthers)
 	}
 }
 
+// Counts of a 12-bit sensor, and light in another unit: OpenEXR says none. The bounds are those above.
+TEST(PosePhoto, FloatsOfAnyUnit)
+{
+	const StateCamera camera = TiltedCamera();
+	for (const double unit : { 4095.0, 1e-4 })
+	{
+		SCOPED_TRACE(unit);
+		const PhotoPose solved = SolvePoseInPhoto(camera, unit * Floor(camera, 0.7), FourClicks(camera), 9, "points.csv");
+		EXPECT_EQ(Count(solved, Placed::MEASURED), 4u);
+		EXPECT_GT(Count(solved, Placed::FOUND), 60u);
+		EXPECT_LT(solved.pose.rms, 0.08);
+		EXPECT_LT(DegreesBetween(solved.pose.camera_from_world, SCENE.camera_from_world), 0.01);
+		// Shown, not white and not black.
+		const cv::Scalar mean = cv::mean(DrawPosePoints(unit * Floor(camera, 0.7), solved));
+		EXPECT_GT(mean[0], 70);
+		EXPECT_LT(mean[0], 160);
+	}
+}
+
 TEST(PosePhoto, HiddenPointsAreLeftOutAndSaid)
 {
 	const StateCamera camera = TiltedCamera();

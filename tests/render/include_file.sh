@@ -25,6 +25,10 @@ examples)
 	done < macros
 	# What stands beside the program is what is in the repository.
 	cmp "$include" "$(dirname "$ours")/../share/povray-3.7/include/tilt_lens.inc" || fail "the build has another tilt_lens.inc"
+	# It is found whatever ini file the user has.
+	printf '%s\n' 'Antialias=Off' > own.ini
+	printf '%s\n' '#version 3.7;' 'global_settings { assumed_gamma 1 }' '#include "tilt_lens.inc"' > include.pov
+	POVINI=$PWD/own.ini povray_to "$ours" include.png include.pov || fail "with an ini file of the user's: $(grep -A3 Error include.png.log)"
 	# Slips are refused by name.
 	for slip in 'TL_Focus_Line(<0,0,1>, <0,0,2>, z)=the direction must differ' 'TL_Focus_Objects(plane { y, 0 }, sphere { y, 1 }, sphere { z, 1 })=the object is endless' \
 		'TL_Focus_Sweep(<0,2,-8>, <0,0,2>, z, <0,0,-18>, z, 0.5)=lies at infinity' 'TL_Focus_Sweep(<0,2,-8>, <0,2,2>, y, <0,0,0>, z, 0.5)=passes through the camera'; do
