@@ -41,10 +41,10 @@ TEST_F(Files, ANameWithBracketsIsTakenAsItIs)
 
 TEST_F(Files, AFoldersBracketsAreNoPattern)
 {
-	for (const char* const folder : { "set[12]", "set1" })
+	for (const char* const name : { "set[12]", "set1" })
 	{
-		fs::create_directory(At(folder));
-		Touch(std::string(folder) + "/a.png");
+		fs::create_directory(At(name));
+		Touch(std::string(name) + "/a.png");
 	}
 	EXPECT_EQ(ExpandGlobs({ AsPattern(At("set[12]")) + "/*.png" }, "x"), std::vector<std::string>{ At("set[12]/a.png") });
 }
