@@ -137,6 +137,7 @@ void CheckAberrations(const CameraVectors& camera, TiltLens& lens)
 		Refuse("tilt_lens: with these aberrations rays would be %g long, which must be below %g.", longest, LongestRay);
 	// Between the places that were looked at it may be a little more.
 	lens.reach = radius > 0.0 ? 1.0 + 1.1 * (reach / radius - 1.0) : 1.0;
+	lens.reach_of_pinhole = radius > 0.0 ? 0.0 : 1.1 * reach;
 }
 
 double InverseFocusAlongLensAxis(const TiltLens& lens, const Vec3d& v)

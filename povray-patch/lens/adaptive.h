@@ -94,9 +94,11 @@ struct Between
 	bool known = false;             ///< whether there are neighbours
 };
 
-/// Variance of a sample by which a pixel of so many is judged, `own` that of its own samples.
+/// Variance of a sample by which a pixel of so many is judged, `own` that of its own samples. Of few samples and without neighbours nothing is known.
 inline double VarianceToJudgeBy(int samples, double own, const Between& between)
 {
+	if((samples < LeastOwnVariance) && !between.known)
+		return HUGE_VAL;
 	return samples >= LeastOwnVariance ? own : samples > 1 ? std::max(between.most, own) : between.most;
 }
 

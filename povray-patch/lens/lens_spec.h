@@ -141,6 +141,7 @@ struct TiltLens
 	double etendue_power = 0.0;             ///< of the glass, where etendue is conserved; else 0
 	bool aberrates = false, aberrates_fifth = false;
 	double reach = 1.0;                 ///< rays leave from points up to so many radii of the opening from its centre
+	double reach_of_pinhole = 0.0;      ///< and so far from the centre of a lens without an opening
 
 	// What follows from the effects (effects.cpp).
 	LensStep steps[MostLensSteps + 1] = {};     ///< of every ray, ended by NULL

@@ -63,8 +63,12 @@ FocusCounts CountFocus(const TiltLens& lens, const CameraVectors& camera,
 {
 	// kappa (times w) is linear over the picture, or nearly so over a pixel: its range
 	// there is the value at the centre plus or minus half of the changes across.
-	const double across = Dot(lens.inverse_focus, camera.right) / width;
-	const double down = Dot(lens.inverse_focus, camera.up) / height;
+	const auto seen_from_lens = [&lens](const Vec3d& v)
+	{
+		return DirectionBeforePupils(lens.normal, lens.pupil_magnification, DirectionFromExitPupil(lens.axis, lens.pupil_magnification, v));
+	};
+	const double across = Dot(lens.inverse_focus, seen_from_lens(camera.right)) / width;
+	const double down = Dot(lens.inverse_focus, seen_from_lens(camera.up)) / height;
 	const double half_range = 0.5 * (std::fabs(across) + std::fabs(down));
 	FocusCounts count;
 
@@ -73,17 +77,18 @@ FocusCounts CountFocus(const TiltLens& lens, const CameraVectors& camera,
 	{
 		const Vec3d row = lens.direction + (0.5 / width - 0.5) * camera.right + (0.5 - (y + 0.5) / height) * camera.up;
 		const double row_seen = lens.Depth(row);
-		const double row_kappa = Dot(lens.inverse_focus, row);
+		const double row_kappa = Dot(lens.inverse_focus, seen_from_lens(row));
 
 		for(int x = left; x <= right; x++)
 		{
 			const bool seen = row_seen + x * seen_across > 0.0;
 			double kappa = row_kappa + x * across;
+			const Vec3d pixel = row + (double(x) / width) * camera.right;
 			if(lens.aberrates && seen)
-				kappa = InverseFocusAlongLensAxis(lens, row + (double(x) / width) * camera.right);
+				kappa = InverseFocusAlongLensAxis(lens, pixel) * Dot(seen_from_lens(pixel), lens.normal);
 			else if((lens.distorts || lens.Curves()) && seen)
 			{
-				const Vec3d v = row + (double(x) / width) * camera.right;
+				const Vec3d v = seen_from_lens(pixel);
 				kappa = lens.Kappa(!lens.distorts ? v :
 				                   UndistortDirection(lens.distortion, lens.basis_x, lens.basis_y, lens.normal, v));
 			}

@@ -38,6 +38,8 @@ struct RareLight
 	static RareLight Of(double light, double p, int n, bool met)
 	{
 		const double none = std::pow(1.0 - p, n);
+		if(!(none < 1.0))
+			return RareLight();
 		const double square = light * light, like_it = none / (1.0 - none);
 		RareLight r;
 		r.missed = square * (met ? like_it : -1.0);

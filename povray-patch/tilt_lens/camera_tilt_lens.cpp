@@ -70,7 +70,7 @@ bool CameraLens::Keeps_Pixels() const
 void CameraLens::Begin_Picture(int width, int height, int left, int top, int right, int bottom)
 {
 	if(Denoises())
-		denoised->Begin(width, height, left, top, right, bottom);
+		denoised->Begin(width, height, left, top, right, bottom, Records());
 	if(Records())
 		channels->Begin(width, height);
 	LensChannels::SetCurrent(Records() ? channels : nullptr);

@@ -17,11 +17,11 @@ namespace tilt_lens
 {
 
 DenoisedPicture::DenoisedPicture() :
-	part(), extended(), missing(0), making(0), shown(false)
+	part(), extended(), firstBand(0), lastBand(0), missing(0), making(0), shown(false)
 {
 }
 
-void DenoisedPicture::Begin(int width, int height, int left, int top, int right, int bottom)
+void DenoisedPicture::Begin(int width, int height, int left, int top, int right, int bottom, bool errors)
 {
 	const Rectangle p = { left, top, right, bottom };
 	const Rectangle e = { std::max(0, left - DenoiseReach), std::max(0, top - DenoiseReach),
@@ -35,11 +35,13 @@ void DenoisedPicture::Begin(int width, int height, int left, int top, int right,
 	recorded.assign(missing, false);
 	// Those that lie in the margins alone are not wanted.
 	bands.assign((noisy.height + DenoiseBand - 1) / DenoiseBand, Band::IsDone);
-	std::fill(bands.begin() + (top - e.top) / DenoiseBand, bands.begin() + (bottom - e.top) / DenoiseBand + 1, Band::Waits);
+	firstBand = (top - e.top) / DenoiseBand;
+	lastBand = (bottom - e.top) / DenoiseBand;
+	std::fill(bands.begin() + firstBand, bands.begin() + lastBand + 1, Band::Waits);
 	sums.assign(bands.size(), 0.0);
 	for(int c = 0; c < PictureChannels; c++)
 		denoised[c].assign(missing, 0.0f);
-	squaredErrors.assign(missing, 0.0f);
+	squaredErrors.assign(errors ? missing : 0, 0.0f);
 	shown = false;
 }
 
@@ -115,7 +117,7 @@ void DenoisedPicture::MakeBand(size_t band, boost::mutex::scoped_lock& lock)
 	try
 	{
 		// Bands write to rows and sums of their own, and the samples are all there.
-		sums[band] = DenoiseRows(noisy, top, bottom, denoised, &squaredErrors);
+		sums[band] = DenoiseRows(noisy, top, bottom, denoised, squaredErrors.empty() ? nullptr : &squaredErrors);
 	}
 	catch(...)
 	{
@@ -132,12 +134,21 @@ double DenoisedPicture::Denoised(int x, int y, float *channels)
 	for(int c = 0; c < PictureChannels; c++)
 		channels[c] = denoised[c][i];
 	shown = true;
-	return std::sqrt(double(squaredErrors[i]));
+	return squaredErrors.empty() ? 0.0 : std::sqrt(double(squaredErrors[i]));
 }
 
 double DenoisedPicture::RmsError() const
 {
-	return recorded.empty() ? 0.0 : std::sqrt(std::accumulate(sums.begin(), sums.end(), 0.0) / double(recorded.size()));
+	double sum = 0.0, pixels = 0.0;
+
+	for(size_t band = firstBand; (band <= lastBand) && (band < bands.size()); band++)
+		if(bands[band] == Band::IsDone)
+		{
+			const int top = int(band) * DenoiseBand;
+			sum += sums[band];
+			pixels += double(std::min(DenoiseBand, noisy.height - top)) * noisy.width;
+		}
+	return pixels > 0.0 ? std::sqrt(sum / pixels) : -1.0;
 }
 
 }

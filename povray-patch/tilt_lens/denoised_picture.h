@@ -26,8 +26,8 @@ class DenoisedPicture
 		DenoisedPicture();
 
 		/// Begins a picture of width x height pixels, of which left..right, top..bottom
-		/// (inclusive) are rendered.
-		void Begin(int width, int height, int left, int top, int right, int bottom);
+		/// (inclusive) are rendered. `errors`: each pixel's is asked for.
+		void Begin(int width, int height, int left, int top, int right, int bottom, bool errors);
 
 		/// Extends a tile at the edge of the rendered part by the pixels beyond that the
 		/// denoised tile depends on, so that strips give the whole picture's pixels.
@@ -43,7 +43,7 @@ class DenoisedPicture
 		void Make(int top, int bottom, boost::mutex::scoped_lock& lock);
 
 		/// A pixel denoised, as PictureChannels numbers, and its estimated standard error (linear, RMS of red, green and
-		/// blue). Only of rows that were made.
+		/// blue), 0 where it is not asked for. Only of rows that were made.
 		double Denoised(int x, int y, float *channels);
 
 		/// Whether that error says anything: one sample has no halves to be told by.
@@ -52,7 +52,7 @@ class DenoisedPicture
 		/// Denoised has been called: the second pass has begun. Needs no lock.
 		bool IsShown() const { return shown; }
 
-		/// Estimated RMS error of what Denoised gave, 0 before.
+		/// Estimated RMS error of what was made, below 0 where nothing was.
 		double RmsError() const;
 
 		/// Held while any of the above is called.
@@ -65,6 +65,7 @@ class DenoisedPicture
 
 		struct Rectangle { int left, top, right, bottom; };
 		Rectangle part, extended;           // rendered; with what it depends on
+		size_t firstBand, lastBand;         // that are wanted
 		size_t missing;
 		NoisyPicture noisy;
 		std::vector<bool> recorded;         // pixels
@@ -72,7 +73,7 @@ class DenoisedPicture
 		boost::condition_variable changed;  // bands
 		int making;                         // bands that are made now
 		std::vector<float> denoised[PictureChannels];
-		std::vector<float> squaredErrors;   // of pixels
+		std::vector<float> squaredErrors;   // of pixels, or none
 		std::vector<double> sums;           // of them in each band: added up in order, whichever thread came first
 		std::atomic<bool> shown;
 };

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "lens/adaptive.h"
 #include "lens/convergence.h"
@@ -36,20 +37,26 @@ struct SampleSums
 	/// average: light that is the same all over the lens has no grain then.
 	bool painted;
 	double weights[3], square_weights[3], weighted[3];
+	/// Samples that the pigment lets a colour through for.
+	int lit[3];
+	/// What Clear divides by is summed up sample by sample: sums of squared weights and of weight times filter or transmit, which is weighted itself.
+	bool weighs;
+	double square_weight, clear_weighted[2];
 
 	/// How the first samples differ from the neighbours', where that is asked.
 	Between between;
 
-	/// Mean red, green and blue as they stood at the latest powers of two, latest first.
+	/// Mean red, green and blue as they stood at the latest powers of two, latest first; NaN where the pigment had let none of a colour through yet.
 	double earlier[ChangesKept + 1][3];
 	int earlier_counts[ChangesKept + 1];
 	/// Filter and transmit at the latest two of them.
 	double earlier_clear[2][2];
 
-	SampleSums() : count(0), withheld(0.0), stopped(0), brightest(0.0f), painted(false)
+	SampleSums() : count(0), withheld(0.0), stopped(0), brightest(0.0f), painted(false), weighs(false), square_weight(0.0)
 	{
 		for(int i = 0; i < 3; i++)
-			weights[i] = square_weights[i] = weighted[i] = 0.0;
+			weights[i] = square_weights[i] = weighted[i] = lit[i] = 0;
+		clear_weighted[0] = clear_weighted[1] = 0.0;
 		for(int i = 0; i < Channels; i++)
 			sum[i] = squares[i] = 0.0;
 		for(int j = 0; j <= ChangesKept; j++)
@@ -65,7 +72,8 @@ struct SampleSums
 			sum[i] += c[i];
 			squares[i] += double(c[i]) * double(c[i]);
 		}
-		brightest = std::max(std::max(brightest, c[0]), std::max(c[1], c[2]));
+		if(!painted)
+			brightest = std::max(std::max(brightest, c[0]), std::max(c[1], c[2]));
 		count++;
 		if((count & (count - 1)) == 0)
 			KeepMean();
@@ -80,9 +88,36 @@ struct SampleSums
 			weights[i] += paint[i];
 			square_weights[i] += double(paint[i]) * double(paint[i]);
 			weighted[i] += double(paint[i]) * double(c[i]);
+			if(paint[i] > 0.0f)
+			{
+				lit[i]++;
+				brightest = std::max(brightest, c[i] / paint[i]);
+			}
 		}
 		Add(c);
 	}
+
+	/// Of the sample that is added next: how much of its light arrives.
+	void Weigh(double weight, const Colour& c)
+	{
+		weighs = true;
+		withheld += 1.0 - weight;
+		square_weight += weight * weight;
+		for(int i = 0; i < 2; i++)
+			clear_weighted[i] += weight * double(c[3 + i]);
+	}
+
+	/// Whether so few samples fell where the pigment, whose `gain` of each colour is above 0 where it has any, is not black that they say nothing: of
+	/// one alone not how it varies, of none not even what there is.
+	bool IsTooDark(const double gain[3]) const
+	{
+		for(int i = 0; i < 3; i++)
+			if(painted && (gain[i] > 0.0) && (lit[i] < std::min(count, 2)))
+				return true;
+		return false;
+	}
+	/// Beyond so many samples a pixel looks for no more of them.
+	static const int MostInTheDark = 1 << 14;
 
 	/// Mean of red, green or blue. A colour that no sample's place on the lens lets through is black.
 	double Light(int i) const
@@ -105,7 +140,7 @@ struct SampleSums
 		}
 		earlier_counts[0] = count;
 		for(int i = 0; i < 3; i++)
-			earlier[0][i] = Light(i);
+			earlier[0][i] = painted && (lit[i] == 0) ? std::numeric_limits<double>::quiet_NaN() : Light(i);
 		for(int i = 0; i < 2; i++)
 		{
 			earlier_clear[1][i] = earlier_clear[0][i];
@@ -117,7 +152,13 @@ struct SampleSums
 	/// 0 for a single sample.
 	int FirstPart() const { return earlier_counts[First()]; }
 	/// Mean of that part in a channel.
-	double FirstMean(int channel) const { return channel < 3 ? earlier[First()][channel] : earlier_clear[First()][channel - 3]; }
+	double FirstMean(int channel) const
+	{
+		if(channel >= 3)
+			return earlier_clear[First()][channel - 3];
+		const double first = earlier[First()][channel];
+		return std::isnan(first) ? Light(channel) : first;
+	}
 	int First() const { return earlier_counts[0] < count ? 0 : 1; }
 
 	/// Mean filter or transmit, of the light that arrived. Where none did: black, and nothing behind it.
@@ -138,8 +179,14 @@ struct SampleSums
 		c.pixels = 1.0;
 		for(c.changes = 0; (c.changes < ChangesKept) && (earlier_counts[c.changes + 1] > 0); c.changes++)
 			for(int i = 0; i < 3; i++)
-				c.change[c.changes] += Square(SeenChange(i, c.changes)) / 3.0;
+				c.change[c.changes] += SquaredChange(i, c.changes) / 3.0;
 		return c;
+	}
+
+	/// Of the doubling j; where it began in the dark, as much as the samples that are not there let expect.
+	double SquaredChange(int channel, int j) const
+	{
+		return std::isnan(earlier[j + 1][channel]) ? PaintedVariance(channel) / count * (VarianceFall - 1.0) * std::pow(VarianceFall, j) : Square(SeenChange(channel, j));
 	}
 
 	/// How much a channel's mean changed by the doubling j. Where it is within what a file holds in
@@ -158,8 +205,8 @@ struct SampleSums
 	{
 		if(count < 2)
 			return RareLight();
-		const int i = sum[0] >= sum[1] && sum[0] >= sum[2] ? 0 : sum[1] >= sum[2] ? 1 : 2;
-		const double mean = sum[i] / count, above = brightest - mean, variance = Variance();
+		const int i = Light(0) >= Light(1) && Light(0) >= Light(2) ? 0 : Light(1) >= Light(2) ? 1 : 2;
+		const double mean = Light(i), above = brightest - mean, variance = Variance();
 		const bool rare = above * above > 2.0 * std::log(double(count)) * variance, too_bright = (first < LeastOwnVariance) && (brightest > 1.0f);
 		if(!(variance > 0.0) || !(above > 0.0) || !(rare || too_bright))
 			return RareLight();
@@ -194,28 +241,41 @@ struct SampleSums
 			c.changes = 1;
 			c.change[0] = between.mean;
 		}
-		// Nets of so few points are a little better than independent samples: v(n) ~ n^-1.2.
-		const double fall = 2.2974;             // 2^1.2
-		double change = variance / count * HiddenPart * (fall - 1.0);
-		for(int j = 0; j < c.changes; j++, change *= fall)
+		double change = variance / count * HiddenPart * (VarianceFall - 1.0);
+		for(int j = 0; j < c.changes; j++, change *= VarianceFall)
 			c.change[j] += change;
 		return c;
 	}
 	static const int FewSamples = 16;
+	/// Nets of so few points are a little better than independent samples: v(n) ~ n^-1.2, 2^1.2 a doubling.
+	static constexpr double VarianceFall = 2.2974;
 	static constexpr double HiddenPart = 0.06;  // measured: 0.02 to 0.12 where it counts (tests/accuracy/estimate.sh)
 
-	/// Of a quotient of sums: how far light is from the mean, times its weight, which is 1 on average.
+	/// Of a quotient of sums: how far light is from the mean, times its weight, which is 1 on average. The mean is that of
+	/// the samples that have a weight.
 	double PaintedVariance(int i) const
 	{
 		const double mean = Light(i);
-		return std::max(0.0, squares[i] - 2.0 * mean * weighted[i] + mean * mean * square_weights[i]) / (count - 1);
+		return std::max(0.0, squares[i] - 2.0 * mean * weighted[i] + mean * mean * square_weights[i]) / count * lit[i] / std::max(lit[i] - 1, 1);
+	}
+
+	/// The same of filter or transmit, whose weights are as much on average as arrived.
+	double ClearVariance(int i) const
+	{
+		const double mean = Clear(i), arrived = (count - withheld) / count;
+		return !(arrived > 0.0) ? 0.0 :
+		       std::max(0.0, squares[i] - 2.0 * mean * clear_weighted[i - 3] + mean * mean * square_weight) / ((count - 1) * arrived * arrived);
 	}
 
 	/// Variance of a sample in one of the channels.
 	double Variance(int i) const
 	{
+		if(painted && (i < 3))
+			return PaintedVariance(i);
+		if(weighs && (i >= 3))
+			return ClearVariance(i);
 		const double mean = sum[i] / count;
-		return painted && (i < 3) ? PaintedVariance(i) : (squares[i] / count - mean * mean) * count / (count - 1);
+		return (squares[i] / count - mean * mean) * count / (count - 1);
 	}
 
 	/// Largest variance of a sample over the channels.

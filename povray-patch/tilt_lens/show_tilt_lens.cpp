@@ -26,7 +26,7 @@ bool TracePixel::CreateTiltLensChiefRay(Ray& ray, DBL x, DBL y, DBL width, DBL h
 	tiltLensSample = { 0.5, 0.5, 0.5, 0.5 };
 	tiltLensWavelength = tilt_lens::GreenWavelength;
 	// Anti-aliasing asks for places between pixels.
-	SeedRandomNumbersOfTiltLens(tilt_lens::RandomSeedOfPixel(int(x * 4096.0), int(y * 4096.0), camera.Tilt_Lens.Seed(), 0));
+	ForgetEarlierTiltLensRays(tilt_lens::RandomSeedOfPixel(int(x * 4096.0), int(y * 4096.0), camera.Tilt_Lens.Seed(), 0));
 	return CreateCameraRay(ray, x, y, width, height, 0);
 }
 

@@ -34,6 +34,7 @@ void TileBorders::Look(int left, int top, int right, int bottom, int width, int 
 		begun->clear();
 		firstMeans.clear();
 		noted.assign(size_t(width) * height, UnknownUncertainty);
+		taken.assign(size_t(width) * height, false);
 	}
 	known.clear();
 	for(int y = top; y <= bottom; y++)
@@ -57,12 +58,14 @@ void TileBorders::NoteFirst(int left, int right, int y, int channels, const floa
 	std::copy(means, means + (right - left + 1) * channels, firstMeans.begin() + (size_t(y) * pictureWidth + left) * channels);
 }
 
-void TileBorders::Take(std::vector<TilePixel>& pixels)
+void TileBorders::Take(std::vector<TilePixel>& pixels, bool own)
 {
 	Pixels::iterator kept = begun->end();
 	for(size_t i = 0; i < pixels.size(); i++)
 	{
 		const std::pair<int, int> place(pixels[i].y, pixels[i].x);
+		if(own)
+			taken[size_t(pixels[i].y) * pictureWidth + pixels[i].x] = true;
 		if((i == 0) || (pixels[i - 1].y != pixels[i].y))
 			kept = begun->lower_bound(place);
 		while((kept != begun->end()) && (kept->first < place))
@@ -89,6 +92,8 @@ void TileBorders::Keep(const std::vector<TilePixel>& pixels)
 			next = begun->lower_bound(place);
 		while((next != begun->end()) && (next->first < place))
 			++next;
+		if(taken[size_t(pixel->y) * pictureWidth + pixel->x])
+			continue;
 		if((next == begun->end()) || (next->first != place))
 			next = begun->insert(next, std::make_pair(place, *pixel));
 		else if(next->second.sums.count < pixel->sums.count)

@@ -36,8 +36,9 @@ class TileBorders
 		/// The same of the means of pixels' first samples, so many numbers a pixel; the first is NaN where no tile has been yet. After Look.
 		void LookAtFirst(int left, int top, int right, int bottom, int channels, std::vector<float>& means);
 
-		/// Hands over those of the pixels, which stand row by row, that another tile has begun.
-		void Take(std::vector<TilePixel>& pixels);
+		/// Hands over those of the pixels, which stand row by row, that another tile has begun. `own`: they are the tile's own, and
+		/// nothing is kept for it from now on.
+		void Take(std::vector<TilePixel>& pixels, bool own);
 
 		/// Notes a pixel's uncertainty.
 		void Note(int x, int y, Uncertainty uncertainty);
@@ -57,6 +58,7 @@ class TileBorders
 		typedef std::map<std::pair<int, int>, TilePixel> Pixels;
 		int pictureWidth, pictureHeight;
 		std::vector<Uncertainty> noted;
+		std::vector<bool> taken;        // by the tile that it belongs to
 		std::vector<float> firstMeans;  // only where a scene's pixels may stop at so few samples: 20 bytes a pixel
 		Pixels *begun;                  // by (y, x)
 };

@@ -179,7 +179,7 @@ void TracePixel::ConvergeTiltLensTile(vector<TilePixel>& tile, int left, int top
 	{
 		boost::mutex::scoped_lock lock(borders.mutex);
 		borders.Look(l, t, r, b, width, height, uncertainty);
-		borders.Take(tile);
+		borders.Take(tile, true);
 		for(int y = t; y <= b; y++)
 			for(int x = l; x <= r; x++)
 			{
@@ -187,7 +187,7 @@ void TracePixel::ConvergeTiltLensTile(vector<TilePixel>& tile, int left, int top
 				if(!in_tile && (uncertainty[(y - t) * columns + (x - l)] == UnknownUncertainty))
 					apron.push_back(TilePixel(x, y, lens.Seed()));
 			}
-		borders.Take(apron);
+		borders.Take(apron, false);
 	}
 
 	if(lens.levels.front().samples < LeastOwnVariance)

@@ -9,6 +9,7 @@
 #include "backend/math/vector.h"
 #include "backend/render/tracepixel.h"
 #include "backend/scene/objects.h"
+#include "backend/shape/isosurf.h"
 #include "backend/shape/planes.h"
 #include "backend/tilt_lens/bokeh.h"
 #include "lens/optics.h"
@@ -76,11 +77,13 @@ static void Seed_Generators(vector<shared_ptr<SequentialNumberGenerator<Type> > 
 			generator->Seed(seed);
 }
 
-/// Sets where every pseudo-random sequence that rays draw from goes on: jitter of area lights
-/// and media, crand, rainbows, subsurface light. Each thread has its own, so that without this
-/// a pixel would depend on what its thread traced before.
-void TracePixel::SeedRandomNumbersOfTiltLens(unsigned int seed)
+/// Sets what a thread keeps from ray to ray, without which a pixel would depend on what its thread traced before:
+/// where every pseudo-random sequence goes on (jitter of area lights and media, crand, rainbows, subsurface light), what shadowed lights
+/// last, and where an isosurface was last not met.
+void TracePixel::ForgetEarlierTiltLensRays(unsigned int seed)
 {
+	ForgetWhatShadowedLights();
+	threadData->isosurfaceData->cache = false;
 	crandRandomNumberGenerator = seed;
 	randomNumberGenerator.SetSeed(seed);
 	if(tiltLensMedia == NULL)
@@ -103,7 +106,7 @@ static bool Box_Touches_Lens(const BBOX& box, const VECTOR location, const tilt_
 		// Boxes are kept in single precision: leave room for their rounding.
 		// A square opening has corners.
 		const DBL extent = lens.square ? fabs(x[i]) + fabs(y[i]) : sqrt(x[i] * x[i] + y[i] * y[i]);
-		const DBL reach = (lens.reach * extent + fabs(location[i]) * 1e-6) * 1.001 + EPSILON;
+		const DBL reach = (lens.reach * extent + lens.reach_of_pinhole + fabs(location[i]) * 1e-6) * 1.001 + EPSILON;
 		const DBL low = box.Lower_Left[i], high = low + box.Lengths[i];
 		if((low - fabs(low) * 1e-6 > location[i] + reach) || (high + fabs(high) * 1e-6 < location[i] - reach))
 			return false;
@@ -130,7 +133,8 @@ bool TracePixel::InteriorTouchesTiltLens()
 		int inside = 0;
 		for(int corner = 0; corner < 4; corner++)
 		{
-			const Vec3d offset = ((corner & 1) ? reach : -reach) * lens.lens_x + ((corner & 2) ? reach : -reach) * lens.lens_y;
+			const Vec3d offset = ((corner & 1) ? 1.0 : -1.0) * (reach * lens.lens_x + lens.reach_of_pinhole * lens.basis_x) +
+			                     ((corner & 2) ? 1.0 : -1.0) * (reach * lens.lens_y + lens.reach_of_pinhole * lens.basis_y);
 			VECTOR point = { camera.Location[X] + offset.x, camera.Location[Y] + offset.y, camera.Location[Z] + offset.z };
 			inside += (*object)->Inside(point, threadData) ? 1 : 0;
 		}
@@ -271,25 +275,25 @@ void TracePixel::AddTiltLensSample(Ray& ray, tilt_lens::SampleSums& sums, DBL x,
 		}
 	}
 	if(Weighs)
-		sums.withheld += 1.0 - weight;
+		sums.Weigh(weight, c);
 	if(Paints)
 		sums.AddPainted(c, paint);
 	else
 		sums.Add(c);
 }
 
-/// Goes on with a pixel until it has `samples` samples.
+/// Goes on with a pixel until it has `samples` samples; under a bokeh pigment, until some of them say something.
 void TracePixel::SampleTiltLensPixel(tilt_lens::TilePixel& pixel, int samples, DBL width, DBL height)
 {
 	Ray ray;
 	const bool lights = (tiltLensLights != NULL);
 
-	if(pixel.sums.count < samples)
-	{
-		SeedRandomNumbersOfTiltLens(tilt_lens::RandomSeedOfPixel(pixel.x, pixel.y, camera.Tilt_Lens.Seed(), pixel.sums.count));
-		ForgetWhatShadowedLights();
-	}
-	while(pixel.sums.count < samples)
+	if(pixel.sums.count >= samples)
+		return;
+	ForgetEarlierTiltLensRays(tilt_lens::RandomSeedOfPixel(pixel.x, pixel.y, camera.Tilt_Lens.Seed(), pixel.sums.count));
+	// Where a bokeh pigment is black no ray is traced: on, to where it is not.
+	const double *const gain = camera.Tilt_Lens.bokeh_gain;
+	while((pixel.sums.count < samples) || (pixel.sums.IsTooDark(gain) && (pixel.sums.count < tilt_lens::SampleSums::MostInTheDark)))
 	{
 		tiltLensSample = pixel.sampler.Next();
 		if(lights)
@@ -307,7 +311,7 @@ void TracePixel::TraceRayThroughTiltLensCentre(Colour& colour, DBL x, DBL y, DBL
 
 	tiltLensSample = { 0.5, 0.5, 0.5, 0.5 };
 	// Anti-aliasing asks for places between pixels.
-	SeedRandomNumbersOfTiltLens(tilt_lens::RandomSeedOfPixel(int(x * 4096.0), int(y * 4096.0), camera.Tilt_Lens.Seed(), 0));
+	ForgetEarlierTiltLensRays(tilt_lens::RandomSeedOfPixel(int(x * 4096.0), int(y * 4096.0), camera.Tilt_Lens.Seed(), 0));
 	(this->*addTiltLensSample)(ray, sums, x, y, width, height);
 	colour = sums.Mean();
 }

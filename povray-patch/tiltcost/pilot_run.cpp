@@ -134,7 +134,7 @@ PilotRun PilotRenders::Run(const PilotPlan& plan, double seconds, const std::str
 	run.wall = result.wall;
 	run.machine.threads = run.log.threads;
 	run.machine.pixels = run.log.pixels;
-	run.machine.rows = int(run.log.pixels / std::max(1, run.log.width));
+	run.machine.rows = run.log.rows;
 	if (run.log.camera_rays > 0 && samples > 0)
 		run.machine.rays_per_sample = run.log.camera_rays / samples;
 	run.machine.start_cpu = std::max(0.0, result.cpu - trace);

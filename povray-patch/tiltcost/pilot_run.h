@@ -59,6 +59,7 @@ struct RenderLog
 {
 	int width = 0, height = 0;          ///< of the picture
 	double pixels = 0;                  ///< of the rows and columns that are rendered
+	int rows = 0;
 	int threads = 1;
 	bool radiosity = false, photons = false;
 	bool pinhole = false;               ///< a tilt_lens with aperture 0

@@ -82,7 +82,10 @@ RenderLog ReadRenderLog(const std::string& log)
 	{
 		int top, bottom, left, right, threads;
 		if (std::sscanf(line.c_str(), " Image resolution.....%d by %d (rows %d to %d, columns %d to %d", &read.width, &read.height, &top, &bottom, &left, &right) == 6)
+		{
 			read.pixels = double(bottom - top + 1) * (right - left + 1);
+			read.rows = bottom - top + 1;
+		}
 		std::sscanf(line.c_str(), " Initial Frame: %d Final Frame: %d", &read.first_frame, &read.last_frame);
 		std::sscanf(line.c_str(), " Frame Step: %d", &read.frame_step);
 		std::sscanf(line.c_str(), "Rendering frame 1 of %d", &read.rendered_frames);

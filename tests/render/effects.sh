@@ -113,6 +113,21 @@ bokeh)
 		# The adaptive ones have nothing to do.
 		grep -q 'Samples/Pixel: *min 8 *mean 8.00 ' flat.ppm.log || fail "$words: $(grep Samples/Pixel flat.ppm.log) where nothing varies"
 	done
+	# Openings that few samples meet: of four samples none in one pixel of 22 through the ellipse, and in nearly all of them through the spot.
+	# No pixel is black for that, and where light is even over the lens the estimate has nothing to say.
+	for opening in '<0.25, 0.5, 1>' '<0.07, 0.14, 1>'; do
+		spot="pigment { cylindrical color_map { [0 rgb 0] [0.0001 rgb 1] } rotate 90*x scale $opening translate <0.5, 0.5, 0> }"
+		printf '%s\n' "$wall" "camera { tilt_lens { focal_distance 3 aperture_diameter 0.4 } location 0 look_at z blur_samples 4, 64 variance 0.0001 bokeh { $spot } }" > spot.pov
+		render "$ours" spot.ppm spot.pov
+		check "even light through $opening" "$compare" flat 1.6e-5 spot.ppm
+		grep -q 'Estimated Error: 0.00000 ' spot.ppm.log || fail "$opening: $(grep Estimated spot.ppm.log) where nothing varies"
+		# Nothing there, through all of the opening: transparent, and certain of it.
+		sed 's/^.*plane/#version 3.7; global_settings { assumed_gamma 1 } #declare None = plane/' spot.pov > none.pov
+		render "$ours" none.png none.pov +UA
+		grep -q 'Samples/Pixel: *min 4 .* Camera Rays: ' none.png.log || fail "$opening: $(grep Samples/Pixel none.png.log)"
+		most=$(sed -n 's/.*Samples\/Pixel:.* mean \([0-9]*\).*/\1/p' spot.ppm.log)
+		[ "$(sed -n 's/.*Samples\/Pixel:.* mean \([0-9]*\).*/\1/p' none.png.log)" -le "$most" ] || fail "$opening: empty pixels take more samples than even ones: $(grep Samples/Pixel none.png.log)"
+	done
 	# A colour that gets through nowhere is gone.
 	sed 's/rgb <1, 0.5, 0.25>/rgb <1, 0, 0>/' wall.pov > red.pov
 	render "$ours" red.ppm red.pov

@@ -144,6 +144,9 @@ TEST(BetweenNeighbours, SeesAnEdgeFromBothSides)
 TEST(BetweenNeighbours, JudgeWhatIsTooLittleToJudgeItself)
 {
 	Between between;
+	EXPECT_EQ(VarianceToJudgeBy(1, 0.0, between), HUGE_VAL) << "nor do neighbours, for there are none";
+	EXPECT_EQ(VarianceToJudgeBy(4, 0.1, between), 0.1);
+	between.known = true;
 	between.most = 0.5;
 	EXPECT_EQ(VarianceToJudgeBy(1, 0.0, between), 0.5);
 	EXPECT_EQ(VarianceToJudgeBy(2, 0.1, between), 0.5);

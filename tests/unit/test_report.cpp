@@ -2,6 +2,7 @@
 //
 // The statistics and the preview of focus, without POV-Ray.
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -58,6 +59,58 @@ TEST(Statistics, SharesOfThePictureAreThoseOfThePlane)
 	EXPECT_LE(c.infinity, 200u);
 	// The right half alone.
 	EXPECT_EQ(CountFocus(lens, Camera, 800, 100, 400, 0, 799, 99).All(), 40000u);
+}
+
+// The ray directions that the renderer itself makes, between the corners of each pixel, beside the count's own formulas: w long, as calibrated cameras'
+// are, pupils of two sizes, distortion. What differs is where kappa is bent over a pixel.
+TEST(Statistics, SharesAreThoseOfTheRays)
+{
+	const CameraVectors large = { { 0, 0, 0 }, { 0, 0, 50 }, { 100, 0, 0 }, { 0, 50, 0 } };
+	for(int effects = 0; effects < 4; effects++)
+	{
+		SCOPED_TRACE(effects);
+		LensSpec spec;
+		spec.enabled = true;
+		spec.lens_tilt = 20.0;
+		spec.tilt_direction = 90.0;
+		spec.focal_distance = 450.0;
+		spec.aperture_diameter = 5.0;
+		if(effects & 1)
+			spec.pupil_magnification = 1.3;
+		TiltLens traced, lens;
+		std::string error;
+		ASSERT_TRUE(ResolveTiltLens(spec, large, traced, error)) << error;
+		spec.aberrations_given = (effects & 2) != 0;
+		spec.aberrations[Spherical] = 0.01;     // none through the middle of the lens
+		ASSERT_TRUE(ResolveTiltLens(spec, large, lens, error)) << error;
+		const int width = 300, height = 40;
+		FocusCounts rays;
+		const auto kappa = [&](double x, double y)
+		{
+			LensRay ray;
+			ray.pixel = ray.v = large.direction + (x / width - 0.5) * large.right + (0.5 - y / height) * large.up;
+			ray.lens_u = ray.lens_v = 0.5;
+			ray.wavelength = GreenWavelength;
+			ray.weight = 1.0;
+			for(const LensStep *step = traced.steps; *step != nullptr; step++)
+				(*step)(traced, ray);
+			return ray.kappa;
+		};
+		for(int y = 0; y < height; y++)
+			for(int x = 0; x < width; x++)
+			{
+				const double corners[4] = { kappa(x, y), kappa(x + 1, y), kappa(x, y + 1), kappa(x + 1, y + 1) };
+				const double most = *std::max_element(corners, corners + 4), least = *std::min_element(corners, corners + 4);
+				(least > 0.0 ? rays.front : most < 0.0 ? rays.behind : rays.infinity)++;
+			}
+		ASSERT_GT(rays.behind, 100u);
+		ASSERT_GT(rays.infinity, 30u);
+		const FocusCounts count = CountFocus(lens, large, width, height, 0, 0, width - 1, height - 1);
+		// A column of pixels either way.
+		EXPECT_NEAR(double(count.front), double(rays.front), height);
+		EXPECT_NEAR(double(count.behind), double(rays.behind), height);
+		EXPECT_NEAR(double(count.infinity), double(rays.infinity), height);
+	}
 }
 
 TEST(Statistics, PixelsBehindTheLensPlaneAreEmpty)
