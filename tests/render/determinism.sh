@@ -66,6 +66,12 @@ near)
 	printf '%s\n' '#declare Oracle_Placement = transform { scale 0.002 };' '#include "oracle-scene.inc"' "camera { tilt_lens { focal_plane_tilt 60 tilt_direction 30 focal_distance 0.016 aperture_diameter 0.0008 }
 		location <0, 0.0052, -0.007> right x * 4 / 3 up y direction z * 1.5 look_at <0, 0.0024, 0.012> $blur }" > scene.pov
 	threads_and_strips "$ours" "surfaces that nearly touch"
+	# So through a lens without an opening that moves rays, and in the preview of focus.
+	for words in 'distortion 0.05' 'show plane aperture_diameter 0.0008'; do
+		sed "s/tilt_lens {/tilt_lens { $words/; s/aperture_diameter 0.0008 }/}/" scene.pov > one-ray.pov
+		cp one-ray.pov scene.pov
+		threads_and_strips "$ours" "surfaces that nearly touch, $words"
+	done
 	;;
 few)
 	# Pixels of one sample, which are judged by their neighbours'.
