@@ -125,12 +125,22 @@ bool ExactModelsAreUnbiased(const std::vector<Row>& rows)
 {
 	bool good = true;
 	for (const Row& row : rows)
-		if (row.model != "paper" && row.answers > 1 && row.bias > 0.01 + 4 * row.scatter / std::sqrt(double(row.answers)))
+	{
+		if (row.model == "paper")
+			continue;
+		if (row.answers < std::min(row.draws, 2))
+		{
+			fmt::print(stderr, "calibrator_cost: model {} answers {} of {} times on exact data ({} photographs, {} edges)\n", row.model, row.answers, row.draws,
+				row.effort.photos, row.effort.edges);
+			good = false;
+		}
+		else if (row.answers > 1 && row.bias > 0.01 + 4 * row.scatter / std::sqrt(double(row.answers)))
 		{
 			fmt::print(stderr, "calibrator_cost: model {} is biased by {:.4f} degrees on exact data ({} photographs, {} edges)\n", row.model, row.bias,
 				row.effort.photos, row.effort.edges);
 			good = false;
 		}
+	}
 	return good;
 }
 

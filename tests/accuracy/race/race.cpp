@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <map>
@@ -65,6 +66,31 @@ std::string Processor()
 		if (line.compare(0, 10, "model name") == 0 && line.find(": ") != std::string::npos)
 			return line.substr(line.find(": ") + 2);
 	return "an unknown processor";
+}
+
+}
+
+namespace
+{
+
+// Whether the truths are those of stock's pinholes, where they were asked (each error is known to a factor of 1.58, as LIMITS.md says), and stock is the slower one.
+bool StandsUp(const RaceReport& report)
+{
+	bool good = true;
+	for (const Contest& contest : report.contests)
+		if (contest.pinhole_frames > 0 && contest.pinhole_distance > 1.58 * std::hypot(contest.truth_error, contest.pinhole_error))
+		{
+			std::fprintf(stderr, "race: %s: the truth is %.5f from stock's pinholes, with errors of %.5f and %.5f\n", contest.Name().c_str(), contest.pinhole_distance,
+				contest.truth_error, contest.pinhole_error);
+			good = false;
+		}
+	for (const Side side : {Side::RAW, Side::BEST})
+		if (const double ratio = GeometricMean(report, Opponent::STOCK, side); ratio > 0 && ratio < 1)   // 0: none of the contests asked is comparable
+		{
+			std::fprintf(stderr, "race: stock is the faster one, by the geometric mean\n");
+			good = false;
+		}
+	return good;
 }
 
 }
@@ -197,7 +223,7 @@ try
 			side == Side::RAW ? "without denoise" : "at its best, denoised where that is quicker", GeometricMean(report, Opponent::STOCK, side),
 			GeometricMean(report, Opponent::PINHOLES, side), GeometricMean(report, Opponent::FIXED, side), WhereWeLose(report, side).c_str());
 	std::printf("%s\n", (out / "report.html").string().c_str());
-	return 0;
+	return StandsUp(report) ? 0 : 1;
 }
 catch (const std::exception& error)
 {
