@@ -13,7 +13,7 @@ packages="
 	libspdlog-dev libfmt-dev libgtest-dev libgmock-dev libbenchmark-dev libpugixml-dev
 	pkg-config pybind11-dev python3-dev libcairo2-dev fonts-dejavu-core poppler-utils
 	gnuplot-nox povray povray-includes slurm-wlm munge procps xvfb xdotool
-	dpkg-dev file man-db python3-jsonschema python3-openimageio python3-numpy locales
+	dpkg-dev file man-db python3-jsonschema python3-openimageio python3-numpy locales vim
 	chromium chromium-driver python3-selenium"
 # Wanted, but nothing fails without them (debootstrap: the workflow `package` tests in a clean root).
 optional="ccache debootstrap"
@@ -26,7 +26,7 @@ setup.sh knows apt only. Please install by your system's own names:
   Ceres Solver 2.1, Eigen 3, OpenCV 4, CLI11, nlohmann-json, spdlog, fmt,
   pkg-config, cairo, a sans-serif font, poppler's pdftoppm (for a test)
   GoogleTest, Google Benchmark, pugixml, gnuplot
-  povray 3.7 (stock, the tests' oracle) and, for tests, man, the sources of a German locale, Slurm and munge, Xvfb and xdotool, Chromium with its driver,
+  povray 3.7 (stock, the tests' oracle) and, for tests, man, the sources of a German locale, Slurm and munge, Xvfb and xdotool, vim, Chromium with its driver,
   Python 3 with jsonschema 4, numpy, OpenImageIO and selenium 4; pybind11 for the Python module; ccache (optional)
   Fedora: gcc-c++ cmake ninja-build patch autoconf automake zlib-devel libpng-devel libjpeg-turbo-devel
           SDL-devel libtiff-devel exiv2-devel openexr-devel boost-devel ceres-solver-devel eigen3-devel opencv-devel cli11-devel

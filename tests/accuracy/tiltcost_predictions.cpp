@@ -351,6 +351,9 @@ int main(int argc, char** argv)
 			places.effort.pilot_time = pilot_time;
 		fs::create_directories(places.out);
 		std::vector<Result> results;
+		for (const std::string& name : only)
+			if (std::none_of(std::begin(Scenes), std::end(Scenes), [&](const Scene& scene) { return scene.name == name; }))
+				throw std::runtime_error("--only " + name + ": no such scene");
 		for (const Scene& scene : Scenes)
 		{
 			if (!only.empty() && std::find(only.begin(), only.end(), scene.name) == only.end())
@@ -365,8 +368,6 @@ int main(int argc, char** argv)
 				std::fflush(stdout);
 			}
 		}
-		if (results.empty())
-			throw std::runtime_error("no scene of that name");
 		Write(places, results);
 		return std::all_of(results.begin(), results.end(), [&](const Result& r) { return r.Good(places.effort.judge_time); }) ? 0 : 1;
 	}

@@ -426,7 +426,7 @@ TEST(BrightPatches, WhiteSquaresAreAsBrightAsTheyWerePainted)
 	{
 		const double dx = (p.u + 0.5) / scene.width - 0.5, dy = (p.v + 0.5) / scene.height - 0.5;
 		const double truth = 0.8 * (1 - (1 - 1 / scene.vignetting) * 2 * (dx * dx + dy * dy));
-		EXPECT_NEAR(p.value / truth, 1, 0.008) << p.board_column << " " << p.board_row;
+		EXPECT_NEAR(p.value / truth, 1, 0.003) << p.board_column << " " << p.board_row;
 		squares += std::pow((p.value - truth) / p.sigma, 2) / double(photo.white.size());
 	}
 	EXPECT_GT(std::sqrt(squares), 0.4);

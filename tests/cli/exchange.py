@@ -56,12 +56,39 @@ def by_screen(camera, project):
 		near(y * camera.height - 0.5, v, f"v of {P}")
 
 
-def colmap(camera, text):
+def colmap_parameters(camera, text):
 	rows = [line.split() for line in text.splitlines() if not line.startswith("#")]
 	assert len(rows) == 1 and rows[0][:4] == ["1", "FULL_OPENCV", str(camera.width), str(camera.height)], rows
 	assert len(rows[0]) == 16, rows
+	return [float(word) for word in rows[0][4:]]
+
+
+def colmap(camera, text):
+	"""Against `tiltcal project` of points all over the picture, in seen.csv. COLMAP's middle of a pixel is 0.5 from its edge."""
+	fx, fy, cx, cy, k1, k2, p1, p2, k3, k4, k5, k6 = colmap_parameters(camera, text)
 	said = re.search(r"Within (\S+) px RMS of tiltcal's camera, (\S+) px at worst", text)
 	assert said and 0 < float(said[1]) <= float(said[2]) < 5, text
+	with open("seen.csv", encoding="utf-8") as stream:
+		seen = [[float(word) for word in line.split(",")[:5]] for line in stream.readlines()[1:]]
+	assert len(seen) > 40, seen
+	square = worst = 0
+	for X, Y, Z, u, v in seen:
+		x, y = X / Z, -Y / Z
+		r2 = x * x + y * y
+		radial = (1 + k1 * r2 + k2 * r2 ** 2 + k3 * r2 ** 3) / (1 + k4 * r2 + k5 * r2 ** 2 + k6 * r2 ** 3)
+		du = fx * (x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x)) + cx - 0.5 - u
+		dv = fy * (y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y) + cy - 0.5 - v
+		square += (du * du + dv * dv) / len(seen)
+		worst = max(worst, math.hypot(du, dv))
+	# The file says it of a finer grid from edge to edge: the same corners, and of the mean the same to a fifth.
+	near(worst, float(said[2]), "the worst", 0.02)
+	near(math.sqrt(square), float(said[1]), "RMS", 0.2 * float(said[1]))
+
+
+def colmap_untilted(camera, text):
+	"""A lens that is not tilted is OpenCV's own model: the numbers of camera.yml."""
+	for got, want in zip(colmap_parameters(camera, text), [2400, 2400, 900.5, 600.5, -0.125, 0.02, 0.001, 0, 0, 0, 0, 0]):
+		near(got, want, "parameter", 1e-6)
 
 
 def renderman(camera, text):

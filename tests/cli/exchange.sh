@@ -20,6 +20,15 @@ expect 0 import camera.yml --pitch 0.02 --out imported.json
 c="--calibration camera.json"
 
 case $case in
+colmap)
+	sed 's/"lens_tilt_deg": 5/"lens_tilt_deg": 0/; s/911.7/900.0/; s/588.3/600.0/' camera.json >untilted.json
+	expect 0 export --calibration untilted.json --colmap untilted.txt
+	"$python" "$here/exchange.py" colmap_untilted untilted.json untilted.txt >out 2>err || fail "the untilted camera"
+	awk 'BEGIN { print "u_px,v_px"; for (i = 0; i <= 8; ++i) for (j = 0; j <= 6; ++j) print i * 1799 / 8 "," j * 1199 / 6 }' >grid.csv
+	expect 0 unproject grid.csv $c; awk -F, 'NR == 1 { print "x,y,z" } NR > 1 { print 700 * $3 "," 700 * $4 "," 700 * $5 }' OFMT=%.15g out >grid-rays.csv
+	expect 0 project grid-rays.csv $c --out seen.csv ;;
+esac
+case $case in
 colmap | renderman | arnold | blender)
 	expect 0 export $c --$case camera.txt --unit-mm 10; prints "camera.txt: not in it: "
 	"$python" "$here/exchange.py" $case camera.json camera.txt >out 2>err

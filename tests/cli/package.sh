@@ -81,7 +81,8 @@ run "$bin/povray-tilt" "$examples/first-tilt/first-tilt.pov" "+L$examples/first-
 run "$bin/tiltcost" scene.pov +W96 +H72 +WT1 --pilot-time 0.3s --error 0.02
 grep -q '^blur_samples' run.log || fail "tiltcost answers nothing: $(cat run.log)"
 mv root/usr/share/povray-tilt away
-! (cd run && env -i HOME="$work/run" "$bin/povray-tilt" scene.pov +W40 +H30 -D) > run.log 2>&1 < /dev/null ||
+! (cd run && env -i PATH=/usr/bin:/bin HOME="$work/run" "$bin/povray-tilt" scene.pov +W40 +H30 -D) > run.log 2>&1 < /dev/null ||
 	fail "povray-tilt takes its include files from elsewhere"
+grep -q "Cannot open include file colors.inc" run.log || fail "povray-tilt fails for another reason: $(cat run.log)"
 echo "all well: $deb, $(wc -l < ours) files and links"
 cd / && rm -rf "$work"

@@ -105,10 +105,12 @@ def is_drawn(page):
 def near(a, b, bound, what):
 	"""Numbers, or lists and objects of them; a list's numbers relative to its largest."""
 	if isinstance(a, dict):
+		assert set(a) == set(b), f"{what}: {sorted(a)} and {sorted(b)}"
 		for key in a:
 			near(a[key], b[key], bound, f"{what}.{key}")
 		return
 	a, b = (x if isinstance(x, list) else [x] for x in (a, b))
+	assert len(a) == len(b), f"{what}: {len(a)} and {len(b)} numbers"
 	if a and isinstance(a[0], list):
 		for i, pair in enumerate(zip(a, b)):
 			near(*pair, bound, f"{what}[{i}]")

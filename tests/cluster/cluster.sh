@@ -13,6 +13,7 @@ ended() { # FOLDER: its last job has
 	case $(job_state "$(last_job "$1")") in COMPLETED* | FAILED* | CANCELLED*) return 0 ;; *) return 1 ;; esac
 }
 parts() { ls "$1"/parts/*.json 2> /dev/null | wc -l; }
+await() { slurm_wait "$@" || fail "no $1"; }
 at_least() { [ "$(parts "$1")" -ge "$2" ]; }
 
 [ $case = guard ] || slurm_use "$slurm"
@@ -24,7 +25,7 @@ picture)
 	expect 0 s.pov $size --parts 4 --pilot-time 0.5s; dir=$(folder)
 	prints "^Jobs: pilot [0-9]*, parts [0-9]*, join [0-9]*$"; prints "^Watch:  squeue --jobs=[0-9,]*;"; prints "^Cancel: scancel [0-9 ]*$"
 	one one.png s.pov $size
-	slurm_wait "end of the join" ended "$dir"
+	await "end of the join" ended "$dir"
 	[ -s s.png ] || fail "no picture: $(cat "$dir"/log/*)"
 	pixels one.png s.png "two nodes"
 	[ "$(grep -ho '"node": "n[12]"' "$dir"/parts/*.json | sort -u | wc -l)" = 2 ] || fail "one node did it all"
@@ -33,9 +34,9 @@ node)
 	# A node dies in the middle, with all that runs on it: Slurm gives its part to the other one, and nothing is rendered twice.
 	scene s.pov "$lens blur_samples 500"
 	expect 0 s.pov +W96 +H72 --parts 4 --equal-rows; dir=$(folder)
-	slurm_wait "POV-Ray on n2" slurm_runs "$slurm" n2 povray
+	await "POV-Ray on n2" slurm_runs "$slurm" n2 povray
 	slurm_kill_node "$slurm" n2
-	slurm_wait "end of the join" ended "$dir"
+	await "end of the join" ended "$dir"
 	[ -s s.png ] || fail "no picture: $(cat "$dir"/log/*) $(scontrol show job | grep -E 'JobId|State')"
 	one one.png s.pov +W96 +H72; pixels one.png s.png "a node died"
 	grep -q 'requeue job .* due to failure of node n2' "$slurm/slurmctld.log" || fail "Slurm requeued nothing: $(tail -20 "$slurm/slurmctld.log")"
@@ -47,7 +48,7 @@ fails)
 	chmod +x pov; touch bad
 	expect 0 s.pov +W64 +H49 --parts 4 --equal-rows --povray ./pov; dir=$(folder)
 	for time in 1 2; do
-		slurm_wait "end of the join" ended "$dir"
+		await "end of the join" ended "$dir"
 		[ "$(job_state "$(last_job "$dir")")" = "FAILED " ] || fail "the join did not fail"
 		[ ! -e s.png ] || fail "an incomplete set was joined"
 		alone=$(sed -n 's/^ *\([^ ]*povray-strips --part 3 [^( ]*\) *(.*/\1/p' "$dir/log/join.txt" | tail -1)
@@ -62,29 +63,31 @@ film)
 	# Eight frames, and the same film a second time at once: two folders, two films.
 	scene s.pov "$blur"
 	film="+W32 +H24 +KFI1 +KFF8 +KI-1 +KF1"
-	mkdir a b one
+	mkdir a b one other
 	expect 0 s.pov $film +Oa/f.png; first=$(folder); prints "8 frames in 8 parts"
 	expect 0 s.pov $film Declare=Colour=0.1 +Ob/f.png --parts 2; second=$(folder)
 	one one/f.png s.pov $film
-	slurm_wait "end of the first film" ended "$first"
-	slurm_wait "end of the second film" ended "$second"
+	one other/f.png s.pov $film Declare=Colour=0.1
+	await "end of the first film" ended "$first"
+	await "end of the second film" ended "$second"
 	for i in 1 2 3 4 5 6 7 8; do
 		[ -s a/f$i.png ] && [ -s b/f$i.png ] || fail "no frame $i: $(cat "$first/log/join.txt" "$second/log/join.txt")"
 		pixels one/f$i.png a/f$i.png "frame $i"
-		! cmp -s a/f$i.png b/f$i.png || fail "the two are mixed"
+		pixels other/f$i.png b/f$i.png "frame $i of the second film"
+		! python3 "$here/../support/png_pixels.py" a/f$i.png b/f$i.png > /dev/null 2>&1 || fail "the films are the same: nothing shown"
 	done ;;
 cancel)
 	# What is printed ends all three, and what runs; nothing is joined, nothing is left on the node.
 	scene s.pov "$lens blur_samples 4000"
 	expect 0 s.pov +W320 +H240 --parts 6 --equal-rows; dir=$(folder)
-	slurm_wait "running parts" sh -c "[ \"\$(squeue --noheader --states=RUNNING --format=%j | grep -c parts)\" = 2 ]"
+	await "running parts" sh -c "[ \"\$(squeue --noheader --states=RUNNING --format=%j | grep -c parts)\" = 2 ]"
 	expect 1 --resume "$dir"; says "still wait or run; cancel them first: scancel"
 	sh -c "$(sed -n 's/.*first: \(scancel [0-9 ]*\)$/\1/p' err)" || fail "scancel"
-	slurm_wait "end of all" sh -c "[ -z \"\$(squeue --noheader)\" ]"
-	slurm_wait "end of POV-Ray" sh -c "! ps -eo args | grep -v grep | grep -q '$work/s[.]strips\|$work/tmp/povray-strips'"
+	await "end of all" sh -c "[ -z \"\$(squeue --noheader)\" ]"
+	await "end of POV-Ray" sh -c "! ps -eo args | grep -v grep | grep -q '$work/s[.]strips\|$work/tmp/povray-strips'"
 	[ ! -e s.png ] || fail "a cancelled picture was joined"
 	[ "$(parts "$dir")" = 0 ] || fail "parts of a second each"
-	slurm_wait "empty TMPDIR" sh -c "[ -z \"\$(ls '$work/tmp')\" ]"
+	await "empty TMPDIR" sh -c "[ -z \"\$(ls '$work/tmp')\" ]"
 	expect 0 --status "$dir"; prints "0 of 6 parts are there" ;;
 batch)
 	# A list of cameras as an array, with the table at the end; one of them fails.
@@ -94,7 +97,7 @@ batch)
 	expect 0 list.txt --options "$common"
 	prints "^Jobs: cameras [0-9]*, table [0-9]*$"; prints "^Watch:  squeue --jobs=[0-9,]*$"; prints "^Cancel: scancel [0-9 ]*$"
 	expect 1 list.txt --options "$common"; says "still wait or run; cancel them first"
-	slurm_wait "end of the table" ended list
+	await "end of the table" ended list
 	[ "$(job_state "$(last_job list)")" = "FAILED " ] || fail "a failed camera is no failure"
 	python3 "$here/batch_tables.py" list plus:done:2 minus:done:2 absent:failed:0 > out 2>&1 || fail "the tables disagree"
 	grep -q "2 of 3 cameras are done" list/log/table.txt || fail "$(cat list/log/table.txt)" ;;
@@ -109,10 +112,10 @@ time.sleep(120)' > ports &
 	holder=$!
 	trap 'kill $holder 2> /dev/null' EXIT
 	slurm_prepare "$work/slurm"
-	slurm_wait "ports" test -s ports
+	await "ports" test -s ports
 	SLURM_TEST_PORTS=$(cat ports) sh -c 'sh "$0" start "$1" $$ > out 2>&1; kill -KILL $$' "$here/slurm.sh" "$work/slurm" 2> err
 	prints "started at attempt 2"
-	slurm_wait "end of the guard" test -e slurm/ended
+	await "end of the guard" test -e slurm/ended
 	slurm_gone "$work/slurm" || fail "left: $(slurm_processes "$work/slurm")" ;;
 *) echo "no such case: $case"; exit 99 ;;
 esac

@@ -157,6 +157,9 @@ try
 	std::vector<Result> results;
 	const bool nothing_asked = o.only.empty() && o.random == 0;
 	const auto quick = [&](const Camera& camera) { return o.megapixels > 0 ? Quick(camera, o.megapixels) : camera; };
+	for (const std::string& name : o.only)
+		if (std::none_of(AllCameras().begin(), AllCameras().end(), [&](const Camera& camera) { return camera.name.rfind(name, 0) == 0; }))
+			throw std::runtime_error("--only " + name + ": no camera's name begins so");
 	// Poses outside, so that what is done of a run that was stopped is of all cameras.
 	for (int k = 0; k < o.poses; ++k)
 		for (const Camera& camera : AllCameras())

@@ -3,7 +3,7 @@
 // Whether denoise makes any block of a picture worse: pictures of several seeds, raw and denoised, against one of many samples.
 //
 //   no_harm scene SCENE --povray POVRAY --work DIR [--option OPTION]...     one scene
-//   no_harm together --work DIR                                            what those that ran into DIR say in all
+//   no_harm together --povray OURS --work DIR                                  what those that ran into DIR say in all
 //
 // SCENE: a .pov file that includes race_camera.inc, or one with a tilt_lens of its own, whose words `denoise`, `seed`, blur_samples and
 // variance are replaced. Fails when more blocks are worse, significantly in the mean of all seeds, than chance allows (block_harm.h): by more than
@@ -132,14 +132,15 @@ bool RunScene(const std::string& povray, const fs::path& scene, const fs::path& 
 	return good;
 }
 
-bool RunTogether(const fs::path& work)
+/// Results that are older than the program are another program's.
+bool RunTogether(const fs::path& work, const fs::path& povray)
 {
 	BlockHarm sums[std::size(Settings)], all;
 	int scenes = 0;
 	for (const auto& entry : fs::directory_iterator(work))
 	{
 		std::ifstream in(entry.path() / "harm.txt");
-		if (!in)
+		if (!in || fs::last_write_time(entry.path() / "harm.txt") < fs::last_write_time(povray))
 			continue;
 		++scenes;
 		for (BlockHarm& sum : sums)
@@ -174,13 +175,15 @@ try
 	CLI::App* all = app.add_subcommand("together");
 	app.require_subcommand(1);
 	one->add_option("SCENE", scene)->required();
-	one->add_option("--povray", povray)->required();
 	one->add_option("--option", options, "for POV-Ray")->allow_extra_args(false);
 	for (CLI::App* command : {one, all})
+	{
+		command->add_option("--povray", povray)->required();
 		command->add_option("--work", work)->required();
+	}
 	CLI11_PARSE(app, argc, argv);
 	work = fs::absolute(work);
-	return (*one ? RunScene(povray, fs::absolute(scene), work, options) : RunTogether(work)) ? 0 : 1;
+	return (*one ? RunScene(povray, fs::absolute(scene), work, options) : RunTogether(work, povray)) ? 0 : 1;
 }
 catch (const std::exception& error)
 {
