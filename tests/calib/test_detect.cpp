@@ -255,6 +255,7 @@ TEST(Detect, BlurBeyondMeasuringIsRefused)
 		try
 		{
 			MeasureEdges(painted.image, board, photo);
+			ADD_FAILURE() << radius << ": " << photo.edges.size() << " edges";
 			// What is left out need not make the photograph useless; what is reported must be true.
 			for (const Edge& e : photo.edges)
 				EXPECT_NEAR(e.blur, 2 * radius, 3) << radius;

@@ -185,9 +185,8 @@ TEST(NextPhotographs, FrontalBoardsAreToldToBe)
 	// The refusal says it, with the code of refusals.
 	try
 	{
-		const Calibration c = Solved(task, true);
-		// Not refused: then the numbers say it.
-		EXPECT_FALSE(c.next.missing.empty());
+		Solved(task, true);
+		FAIL() << "answered";
 	}
 	catch (const Error& e)
 	{

@@ -99,16 +99,19 @@ denoise)
 	began=$(date +%s%N)
 	render "$ours" whole.ppm scene.pov $size
 	took=$(($(date +%s%N) - began))
+	killed=0
 	for percent in 40 75 85 95; do
-		rm -f killed.ppm
+		rm -f killed.ppm killed.pov-state
 		"$ours" -D $size -A +WT1 +FP16 File_Gamma=1 "+L$here" +Iscene.pov +Okilled.ppm < /dev/null > killed.log 2>&1 &
 		process=$!
 		sleep $(awk "BEGIN { print $took * $percent / 1e11 }")
-		kill -9 $process 2> /dev/null
+		kill -9 $process 2> /dev/null && killed=$((killed + 1))
 		wait $process 2> /dev/null
 		render "$ours" killed.ppm scene.pov $size +C
 		check "killed after $percent %, continued" "$compare" same whole.ppm killed.ppm
 	done
+	# A faster moment of the machine may end one before its time.
+	[ $killed -ge 3 ] || fail "only $killed of 4 were still running"
 	;;
 area_light)
 	scene "$lens" "$blur" "$area"
@@ -124,7 +127,7 @@ random)
 	scene "$lens" 'blur_samples 4, 16 variance 1/1000' "global_settings { subsurface { samples 4, 4 } } $random"
 	threads_and_rows "$ours" "random numbers" 20 51
 	cp whole.ppm seed0.ppm
-	# They are random: another seed is another grain, and so is each kind's absence.
+	# They are random: each kind's absence shows, beside the grain of the lens.
 	sed 's/tilt_lens {/tilt_lens { seed 1/' scene.pov > seeded.pov
 	render "$ours" seed1.ppm seeded.pov $size
 	check "another seed" "$compare" differ 0.005 seed0.ppm seed1.ppm
@@ -137,6 +140,11 @@ random)
 	# Without an opening, where the lens moves rays.
 	scene 'tilt_lens { focal_distance 8 distortion -0.05 }' '' "$random"
 	threads_and_rows "$ours" "random numbers of a pinhole" 20 51
+	# Its rays are the same for all seeds: what differs is their random numbers.
+	cp whole.ppm seed0.ppm
+	sed 's/tilt_lens {/tilt_lens { seed 1/' scene.pov > seeded.pov
+	render "$ours" seed1.ppm seeded.pov $size
+	check "another seed of a pinhole" "$compare" differ 0.005 seed0.ppm seed1.ppm
 	;;
 stock)
 	scene perspective "aperture 0.8 focal_point <0, 1.42, 4.5> blur_samples 37 variance 1/4000 confidence 0.9" "$area"

@@ -25,6 +25,11 @@ check "pinhole" "$compare" same stock-sharp.exr ours-sharp.exr
 picture "$stock" stock-blurred Declare=Tilt=0 Declare=Blur=$samples
 picture "$ours" ours-blurred Declare=Tilt=1 Declare=Blur=$samples
 check "blur" "$compare" rms $limit stock-blurred.exr ours-blurred.exr
+# What is covered or not differs by 1, colours by about half of that.
+if [ $case = alpha ]; then
+	check "the blur of alpha" "$compare" alpha "$(awk "BEGIN { print 2 * $limit }")" stock-blurred.exr ours-blurred.exr
+	"$compare" empty ours-blurred.exr | awk '{ exit !($1 > 20 && $2 > 20) }' || fail "empty and half covered, in percent: $("$compare" empty ours-blurred.exr)"
+fi
 check "the blur is one" "$compare" differ 0.02 stock-blurred.exr stock-sharp.exr
 grep -q '^Tilt lens' ours-blurred.exr.log || fail "no tilt_lens in this picture"
 finish
