@@ -32,7 +32,7 @@ bool InProc(const fs::path& path)
 {
 	std::error_code code;
 	const std::string folder = fs::weakly_canonical(path.parent_path(), code).string();
-	return !code && folder.rfind("/proc", 0) == 0;
+	return !code && (folder == "/proc" || folder.rfind("/proc/", 0) == 0);
 }
 
 /// What a file created without ado gets.

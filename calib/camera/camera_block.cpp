@@ -6,6 +6,7 @@
 #include "camera/real_lens_words.h"
 #include "model/names.h"
 #include "model/projection.h"
+#include <tiltcal/error.h>
 
 #include <fmt/format.h>
 
@@ -119,6 +120,8 @@ std::string CameraBlockText(const StateCamera& c, const BlockNumbers& numbers, c
 
 std::string CameraBlockOf(const StateCamera& camera, const Place& place, double unit_mm)
 {
+	if (!(unit_mm > 0) || !std::isfinite(unit_mm))
+		throw UsageError(fmt::format("a unit of the scene must be longer than 0 mm, but is {}", unit_mm));
 	BlockLayout layout;
 	layout.place = PlaceLines(camera, place, unit_mm);
 	if (camera.aberrations)

@@ -59,7 +59,8 @@ std::string BlenderScript(const StateCamera& c, double unit_mm)
 		"camera.type, camera.sensor_fit = \"PERSP\", \"HORIZONTAL\"\n"
 		"camera.sensor_width, camera.sensor_height = {}, {}    # mm\n"
 		"camera.lens = {}    # mm: the image distance, from the lens to the sensor\n"
-		"camera.shift_x, camera.shift_y = {}, {}    # in widths of the sensor\n",
+		"camera.shift_x, camera.shift_y = {}, {}    # in widths of the sensor\n"
+		"camera.clip_start, camera.clip_end = 1 / UNIT_MM, 1e6 / UNIT_MM    # a millimetre, a kilometre\n",
 		SceneNumber(view.width_mm), SceneNumber(view.height_mm), SceneNumber(c.image_distance_mm), SceneNumber(view.shift_x_mm / view.width_mm),
 		SceneNumber(view.shift_y_mm / view.width_mm));
 	if (c.aperture_diameter_mm > 0)

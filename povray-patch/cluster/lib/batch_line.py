@@ -12,11 +12,12 @@ from common import Failure, digest, read_json, refused, run, write_json
 
 
 def files_of(words):
-	"""Digests of what the words name, by themselves, after an =, or as a pattern."""
+	"""Digests of what the words name, by themselves, after any =, or as a pattern."""
 	found = {}
 	for word in words:
-		for text in {word, word.partition("=")[2]} - {""}:
-			for path in glob.glob(text):
+		for text in {word.split("=", k)[-1] for k in range(word.count("=") + 1)} - {""}:
+			# A name with brackets is itself, as for tiltcal.
+			for path in [text] if os.path.exists(text) else glob.glob(text):
 				if os.path.isfile(path):
 					found[path] = digest(path)
 	return found

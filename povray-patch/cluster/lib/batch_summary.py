@@ -30,12 +30,14 @@ def _row(batch, folder, line, again):
 		row["command"] = again(name)
 		return row
 	found = read_json(result_file(folder, name))
-	row.update({"verdict": found["verdict"]["grade"], "model": found["model"], "photographs": sum(len(s["photos"]) for s in found["states"]),
+	# The model paper is not judged.
+	verdict = found.get("verdict", {"grade": "not judged", "remarks": []})
+	row.update({"verdict": verdict["grade"], "model": found["model"], "photographs": sum(len(s["photos"]) for s in found["states"]),
 		"rms_reprojection_px": found["rms_reprojection_px"]})
 	for quantity in LENS:
 		row[f"{quantity}_mm"], row[f"{quantity}_sigma_mm"] = found[f"{quantity}_mm"], found[f"{quantity}_sigma_mm"]
 	row["states"] = [{"state": s["name"], **{key: s[key] for key in STATE}} for s in found["states"]]
-	row["remarks"] = [remark["text"] for remark in found["verdict"]["remarks"] if remark["grade"] != "good"]
+	row["remarks"] = [remark["text"] for remark in verdict["remarks"] if remark["grade"] != "good"]
 	return row
 
 

@@ -20,7 +20,9 @@ def run_all(commands, at_once, log_folder):
 				done += 1
 				if child.returncode != 0:
 					failed.append(name)
-				print(f"\r{done} of {len(commands)} done" + (f", {len(failed)} failed" if failed else ""), end="", file=sys.stderr)
+				# Over the line before on a screen, a line each in a file.
+				line = f"{done} of {len(commands)} done" + (f", {len(failed)} failed" if failed else "")
+				print(f"\r{line}" if sys.stderr.isatty() else line, end="" if sys.stderr.isatty() else "\n", file=sys.stderr, flush=True)
 			time.sleep(0.02)
 	except BaseException:
 		for child in running:
@@ -29,7 +31,7 @@ def run_all(commands, at_once, log_folder):
 			child.wait()
 		raise
 	finally:
-		if commands:
+		if commands and sys.stderr.isatty():
 			print(file=sys.stderr)
 	return failed
 
