@@ -60,7 +60,15 @@ real)
 	echo ' ' >> list/plus/calibration.json
 	expect 0 list.txt --options "$common" --tiltcal ./cal --dry-run; prints "3 cameras, 3 to calibrate"
 	printf '%s\n' "$(grep -v '^plus' list.txt)" > list.txt
-	expect 0 list.txt --options "$common" --tiltcal ./cal --dry-run; prints "2 cameras, 2 to calibrate" ;;
+	expect 0 list.txt --options "$common" --tiltcal ./cal --dry-run; prints "2 cameras, 2 to calibrate"
+	# A camera of the model paper has no verdict; photographs after a second = count too.
+	mkdir two; cp "$photos"/plus5-[12].jpg two/
+	echo "old --untilted '$photos/untilted-[12].jpg' --tilted=plus5='two/*.jpg'" > old.txt
+	paper="--board 12x9 --square 25 --pitch 0.02 --edges-per-photo 16 --model paper"
+	expect 0 old.txt --options "$paper" --local 1; prints '^old  *not judged  *4[0-9.]* ± '
+	expect 0 old.txt --options "$paper" --dry-run; prints "1 cameras, 0 to calibrate"
+	cp "$photos"/plus5-3.jpg two/2.jpg
+	expect 0 old.txt --options "$paper" --dry-run; prints "1 cameras, 1 to calibrate" ;;
 *) echo "no such case: $case"; exit 99 ;;
 esac
 echo "all well"
