@@ -162,8 +162,7 @@ cv::Mat DrawPosePoints(const cv::Mat& photo, const PhotoPose& solved)
 	const int SHIFT = 4;   // sub-pixel bits of OpenCV's drawing
 	const auto fixed = [](double x, double y) { return cv::Point(static_cast<int>(std::lround(x * 16)), static_cast<int>(std::lround(y * 16))); };
 	cv::Mat canvas;
-	const cv::Mat grey = Luminance(photo);
-	cv::cvtColor(ToDisplay(grey, DisplayGain(grey)), canvas, cv::COLOR_GRAY2BGR);
+	cv::cvtColor(ToDisplay(Luminance(photo)), canvas, cv::COLOR_GRAY2BGR);
 	canvas.convertTo(canvas, CV_8UC3, 0.6, 40);
 	for (size_t i = 0; i < solved.points.size(); ++i)
 	{

@@ -229,7 +229,7 @@ std::vector<std::string> NamesOf(const std::vector<StatePatterns>& states)
 PackedPicture Pack(const cv::Mat& grey)
 {
 	PackedPicture packed;
-	cv::imencode(".png", ToDisplay(grey, DisplayGain(grey)), packed, { cv::IMWRITE_PNG_COMPRESSION, 1 });
+	cv::imencode(".png", ToDisplay(grey), packed, { cv::IMWRITE_PNG_COMPRESSION, 1 });
 	return packed;
 }
 

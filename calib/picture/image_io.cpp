@@ -192,6 +192,8 @@ cv::Mat ToDisplay(const cv::Mat& linear, double gain)
 	return display;
 }
 
+cv::Mat ToDisplay(const cv::Mat& linear) { return ToDisplay(linear, DisplayGain(linear)); }
+
 std::string PngOf(const cv::Mat& image)
 {
 	// Not imwrite, which does not see a full disk.

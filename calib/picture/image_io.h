@@ -41,7 +41,10 @@ double BrightestHundredth(const cv::Mat& linear);
 double DisplayGain(const cv::Mat& linear);
 
 /// 8-bit sRGB picture of `linear` times `gain`, CV_8UC1 or CV_8UC3.
-cv::Mat ToDisplay(const cv::Mat& linear, double gain = 1);
+cv::Mat ToDisplay(const cv::Mat& linear, double gain);
+
+/// The same with its DisplayGain.
+cv::Mat ToDisplay(const cv::Mat& linear);
 
 /// An 8-bit picture as a PNG file's bytes.
 std::string PngOf(const cv::Mat& image);

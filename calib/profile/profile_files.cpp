@@ -59,7 +59,7 @@ void PlotProfiles(const Comparison& c, const ComparedFiles& files, const std::ve
 cv::Mat WithLines(const cv::Mat& linear, const Comparison& c)
 {
 	cv::Mat picture;
-	cv::Mat display = ToDisplay(linear, DisplayGain(linear));
+	cv::Mat display = ToDisplay(linear);
 	if (display.channels() == 1)
 		cv::cvtColor(display, picture, cv::COLOR_GRAY2BGR);
 	else

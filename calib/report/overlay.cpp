@@ -42,7 +42,7 @@ cv::Scalar DifferenceColour(double difference)
 cv::Mat Canvas(const cv::Mat& grey)
 {
 	cv::Mat canvas;
-	cv::cvtColor(grey.depth() == CV_8U ? grey : ToDisplay(grey, DisplayGain(grey)), canvas, cv::COLOR_GRAY2BGR);
+	cv::cvtColor(grey.depth() == CV_8U ? grey : ToDisplay(grey), canvas, cv::COLOR_GRAY2BGR);
 	canvas.convertTo(canvas, CV_8UC3, 0.55, 40);
 	return canvas;
 }

@@ -62,7 +62,7 @@ TEST(Statistics, SharesOfThePictureAreThoseOfThePlane)
 }
 
 // The ray directions that the renderer itself makes, between the corners of each pixel, beside the count's own formulas: w long, as calibrated cameras'
-// are, pupils of two sizes, distortion. What differs is where kappa is bent over a pixel.
+// are, pupils of two sizes, aberrations. What differs is where kappa is bent over a pixel.
 TEST(Statistics, SharesAreThoseOfTheRays)
 {
 	const CameraVectors large = { { 0, 0, 0 }, { 0, 0, 50 }, { 100, 0, 0 }, { 0, 50, 0 } };
@@ -77,12 +77,10 @@ TEST(Statistics, SharesAreThoseOfTheRays)
 		spec.aperture_diameter = 5.0;
 		if(effects & 1)
 			spec.pupil_magnification = 1.3;
-		TiltLens traced, lens;
-		std::string error;
-		ASSERT_TRUE(ResolveTiltLens(spec, large, traced, error)) << error;
+		const TiltLens traced = ResolvedFor(spec, large);
 		spec.aberrations_given = (effects & 2) != 0;
 		spec.aberrations[Spherical] = 0.01;     // none through the middle of the lens
-		ASSERT_TRUE(ResolveTiltLens(spec, large, lens, error)) << error;
+		const TiltLens lens = ResolvedFor(spec, large);
 		const int width = 300, height = 40;
 		FocusCounts rays;
 		const auto kappa = [&](double x, double y)

@@ -68,11 +68,6 @@ std::string Processor()
 	return "an unknown processor";
 }
 
-}
-
-namespace
-{
-
 // Whether the truths are those of stock's pinholes, where they were asked (each error is known to a factor of 1.58, as LIMITS.md says), and stock is the slower one.
 bool StandsUp(const RaceReport& report)
 {
