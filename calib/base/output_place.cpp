@@ -31,8 +31,8 @@ const int MOST_LINKS = 40;
 bool InProc(const fs::path& path)
 {
 	std::error_code code;
-	const std::string folder = fs::weakly_canonical(path.parent_path(), code).string();
-	return !code && (folder == "/proc" || folder.rfind("/proc/", 0) == 0);
+	const fs::path below = fs::weakly_canonical(path.parent_path(), code).lexically_relative("/proc");
+	return !code && !below.empty() && *below.begin() != "..";
 }
 
 /// What a file created without ado gets.
