@@ -228,7 +228,7 @@ std::vector<BrightPatch> MeasureFlatField(const cv::Mat& linear, const std::stri
 				patches.push_back(all.back());
 		}
 	if (2 * clipped > columns * rows)
-		throw Refused(fmt::format("`flat_field` {}: {} of {} cells are clipped, which hides the fall-off: expose less, so that the brightest part stays below full scale", file, clipped, columns * rows));
+		throw Refused(fmt::format("`flat_field` {}: {} of {} cells are clipped, which hides the fall-off: expose less, so that the brightest part stays below full scale (a render of one even colour has no fall-off to tell)", file, clipped, columns * rows));
 	double brightest = 0;
 	for (const BrightPatch& p : patches)
 		brightest = std::max(brightest, p.value);

@@ -67,16 +67,8 @@ struct SampleSums
 
 	void Add(const Colour& c)
 	{
-		for(int i = 0; i < Channels; i++)
-		{
-			sum[i] += c[i];
-			squares[i] += double(c[i]) * double(c[i]);
-		}
-		if(!painted)
-			brightest = std::max(std::max(brightest, c[0]), std::max(c[1], c[2]));
-		count++;
-		if((count & (count - 1)) == 0)
-			KeepMean();
+		brightest = std::max(std::max(brightest, c[0]), std::max(c[1], c[2]));
+		SumUp(c);
 	}
 
 	/// The same for light that is multiplied by `paint` already: its red, green and blue are the weights.
@@ -94,7 +86,19 @@ struct SampleSums
 				brightest = std::max(brightest, c[i] / paint[i]);
 			}
 		}
-		Add(c);
+		SumUp(c);
+	}
+
+	void SumUp(const Colour& c)
+	{
+		for(int i = 0; i < Channels; i++)
+		{
+			sum[i] += c[i];
+			squares[i] += double(c[i]) * double(c[i]);
+		}
+		count++;
+		if((count & (count - 1)) == 0)
+			KeepMean();
 	}
 
 	/// Of the sample that is added next: how much of its light arrives.
@@ -141,12 +145,13 @@ struct SampleSums
 		earlier_counts[0] = count;
 		for(int i = 0; i < 3; i++)
 			earlier[0][i] = painted && (lit[i] == 0) ? std::numeric_limits<double>::quiet_NaN() : Light(i);
-		for(int i = 0; i < 2; i++)
+		for(int i = 0; (i < 2) && IsClear(); i++)
 		{
 			earlier_clear[1][i] = earlier_clear[0][i];
 			earlier_clear[0][i] = Clear(3 + i);
 		}
 	}
+	bool IsClear() const { return (sum[3] != 0.0) || (sum[4] != 0.0); }
 
 	/// The first part of the samples: as many as the last power of two below all of them.
 	/// 0 for a single sample.

@@ -291,15 +291,17 @@ void TracePixel::SampleTiltLensPixel(tilt_lens::TilePixel& pixel, int samples, D
 	if(pixel.sums.count >= samples)
 		return;
 	ForgetEarlierTiltLensRays(tilt_lens::RandomSeedOfPixel(pixel.x, pixel.y, camera.Tilt_Lens.Seed(), pixel.sums.count));
-	// Where a bokeh pigment is black no ray is traced: on, to where it is not.
 	const double *const gain = camera.Tilt_Lens.bokeh_gain;
-	while((pixel.sums.count < samples) || (pixel.sums.IsTooDark(gain) && (pixel.sums.count < tilt_lens::SampleSums::MostInTheDark)))
-	{
-		tiltLensSample = pixel.sampler.Next();
-		if(lights)
-			tiltLensLightSamples.Draw(pixel.sampler.Light());
-		(this->*addTiltLensSample)(ray, pixel.sums, pixel.x + tiltLensSample.pixel_x - 0.5, pixel.y + tiltLensSample.pixel_y - 0.5, width, height);
-	}
+	do
+		while(pixel.sums.count < samples)
+		{
+			tiltLensSample = pixel.sampler.Next();
+			if(lights)
+				tiltLensLightSamples.Draw(pixel.sampler.Light());
+			(this->*addTiltLensSample)(ray, pixel.sums, pixel.x + tiltLensSample.pixel_x - 0.5, pixel.y + tiltLensSample.pixel_y - 0.5, width, height);
+		}
+	// Where a bokeh pigment is black no ray is traced: on, one by one, to where it is not.
+	while(pixel.sums.IsTooDark(gain) && (++samples <= tilt_lens::SampleSums::MostInTheDark));
 }
 
 /// One ray through the lens centre, for a camera without an opening whose lens

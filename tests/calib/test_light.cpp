@@ -162,6 +162,12 @@ TEST(Light, WhiteLevels)
 	EXPECT_TRUE(ClippedPixels(Noisy(0.05, 0.8, 0, 1)).empty()) << "a render without noise";
 	EXPECT_GT(cv::countNonZero(ClippedPixels(Noisy(0.05, 0.8, 0.01, 0.75))), 19000);
 	EXPECT_GT(cv::countNonZero(ClippedPixels(Noisy(5, 80, 1, 80))), 9000) << "half of the bright side, in floats of another unit";
+	// A render whose light falls off around a board: two thirds of what is dark differ, the board's own squares do not.
+	cv::Mat render = Noisy(0.05, 0.8, 0, 1);
+	for (int y = 70; y < render.rows; ++y)
+		for (int x = 0; x < 100; ++x)
+			render.at<float>(y, x) = 0.3f - 1e-4f * float(y) - 1e-5f * float(x * x);
+	EXPECT_TRUE(ClippedPixels(render).empty());
 	// One channel of three.
 	cv::Mat colour;
 	cv::merge(std::vector<cv::Mat>{ Noisy(0.05, 0.5, 0.01, 1), Noisy(0.05, 0.9, 0.01, 0.85), Noisy(0.05, 0.5, 0.01, 1) }, colour);

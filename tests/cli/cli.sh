@@ -219,17 +219,19 @@ effects_written)
 	prints '^  vignetting_natural  written'
 	refuses 1 "--effects: chromatic_lateral could not be estimated: the photographs are grey" "$@" --effects chromatic_lateral ;;
 flat_field)
-	# An even grey, 8 bit: TIFF's header, nine entries, then the pixels.
-	{ printf 'II*\000\010\000\000\000\011\000'
+	# An even grey of 8 bits, a step from column to column for its noise: TIFF's header, nine entries, then the pixels.
+	grey() { printf 'II*\000\010\000\000\000\011\000'
 		printf '\000\001\004\000\001\000\000\000\010\007\000\000\001\001\004\000\001\000\000\000\260\004\000\000\002\001\003\000\001\000\000\000\010\000\000\000'
 		printf '\003\001\003\000\001\000\000\000\001\000\000\000\006\001\003\000\001\000\000\000\001\000\000\000\021\001\004\000\001\000\000\000\172\000\000\000'
 		printf '\025\001\003\000\001\000\000\000\001\000\000\000\026\001\004\000\001\000\000\000\260\004\000\000\027\001\004\000\001\000\000\000\200\365\040\000\000\000\000\000'
-		head -c 2160000 /dev/zero | tr '\000' '\260'; } >wall.tiff
+		yes | head -c 2160000 | tr 'y\n' "$1"; }
+	grey '\260\261' >wall.tiff; grey '\260' >clipped.tiff
 	set -- calibrate --model plane --board 12x9 --square 25 --pitch 0.02 --untilted "$target/untilted-[1-3].jpg" --edges-per-photo 40 --out result
 	expect 0 "$@" --flat-field untilted=wall.tiff
 	says "flat field of state untilted, 1040 cells"; grep -q '"told_by": "flat fields"' result/calibration.json || fail "not told by the flat field"
 	printf '\211\120\116\107\015\012\032\012\000\000\000\015\111\110\104\122\000\000\000\001\000\000\000\001\010\000\000\000\000\072\176\233\125\000\000\000\012\111\104\101\124\170\234\143\250\000\000\000\172\000\171\263\141\265\173\000\000\000\000\111\105\116\104\256\102\140\202' >one.png
-	refuses 1 "--flat-field.*is 1x1 pixels" "$@" --flat-field untilted=one.png ;;
+	refuses 1 "--flat-field.*is 1x1 pixels" "$@" --flat-field untilted=one.png
+	refuses 1 "--flat-field clipped.tiff: 1040 of 1040 cells are clipped" "$@" --flat-field untilted=clipped.tiff ;;
 bad_edges_per_photo)
 	for threads in -1 5000; do calibrate 2 "--threads $threads: give 0 for all processors" "$target/untilted-1.jpg" --threads=$threads; done
 	for n in -1 3 11 2.5 many; do calibrate 2 "--edges-per-photo.*$n" "$target/untilted-1.jpg" --edges-per-photo=$n; done ;;

@@ -172,7 +172,7 @@ light)
 	# Another camera ends after the pretrace too; and words with folders that have spaces, in an ini file beside, are meant from here.
 	mkdir "a folder"; echo '#declare Other = 1;' > "a folder/other.inc"; printf 'Library_Path="a folder"\n' > "a folder/o.ini"
 	scene "a folder/o.pov" "perspective" "$light global_settings { radiosity { count 20 #if (Strips_Light = 2) pretrace_start 1 pretrace_end 1 always_sample off #end } } #include \"other.inc\""
-	expect 0 "a folder/o.pov" "a folder/o.ini" +W400 +H300 '+L"a folder"' '+O"a folder/o.png"' --parts 2 --local 2 --light
+	expect 0 "a folder/o.pov" "a folder/o.ini" +W400 +H300 +A0.0 +AM1 +R4 '+L"a folder"' '+O"a folder/o.png"' --parts 2 --local 2 --light
 	dir=$(folder); [ -s "$dir/light/strips.rca" ] || fail "no radiosity"; grep -q "Frontend halted" "$dir/log/light.txt" || fail "the first job renders the picture"
 	scene t.pov "$blur"; expect 1 t.pov $small --parts 2 --local 1 --light; says "saved neither photons" ;;
 resume)
