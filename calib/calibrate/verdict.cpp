@@ -6,11 +6,13 @@
 #include "calibrate/check_light.h"
 #include "calibrate/left_over.h"
 #include "calibrate/one_photograph.h"
+#include "effects/effects.h"
 
 #include "solve/blur_fit.h"
 #include "solve/each_edge.h"
 #include <tiltcal/calibrate.h>
 #include "model/focus_words.h"
+#include "model/picture_view.h"
 #include "model/tilt_angles.h"
 
 #include <fmt/format.h>
@@ -51,6 +53,7 @@ public:
 		// What these name is not the lens's aberrations. A slight fault of the light may be theirs: they move edges too.
 		const bool explained = odd || spoiled;
 		ImageDistance();
+		Fold();
 		for (size_t s = 0; s < c.solution.states.size(); ++s)
 		{
 			if (s > 0)
@@ -84,6 +87,19 @@ private:
 	}
 
 	const std::string& StateName(size_t s) const { return c.task.states[s].name; }
+
+	/// A distortion fitted where edges are may turn back where none are.
+	void Fold()
+	{
+		const Geometry& g = c.MainGeometry();
+		for (size_t s = 0; s < g.states.size() && Uses(c, EffectId::DISTORTION) && !c.RealLensIsUsed(); ++s)
+			if (const auto fold = FirstFold({ g.w_px, g.distortion, g.states[s].principal_point, g.states[s].lens_normal }, c.task.width, c.task.height))
+			{
+				Say(Grade::POOR, fmt::format("state {}: the distortion turns back inside the picture, where no edges tell it: pixel ({:.0f}, {:.0f}) sees nothing, and POV-Ray refuses this camera. Photograph the board "
+					"in the corners too, or render with `TiltCal_Distortion` 0", StateName(s), (*fold)[0], (*fold)[1]));
+				return;
+			}
+	}
 
 	void ImageDistance()
 	{

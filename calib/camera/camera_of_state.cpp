@@ -5,14 +5,15 @@
 #include "lens/angles.h"
 #include "effects/effects.h"
 #include "effects/fixed_blades.h"
-#include "lens/distortion.h"
 #include "lens/field_curvature.h"
-#include "model/projection.h"
+#include "lens/optics.h"
+#include "model/picture_view.h"
 
 #include <fmt/format.h>
 #include <tiltcal/error.h>
 
 #include <cmath>
+#include <limits>
 
 namespace tiltcal
 {
@@ -95,27 +96,22 @@ Vec3<double> StateCamera::PlaneOfFocus() const
 	return tilt_lens::PlaneFromLensTilt(LensNormal(), 1 / image_distance_mm, 1 / focus_distance_mm);
 }
 
-std::optional<Point> Project(const StateCamera& c, const Vec3<double>& P)
-{
-	const Vec3<double> n = c.LensNormal();
-	if (!(Dot(P, n) > 0) || !(P.z > 0))
-		return std::nullopt;
-	Point pixel;
-	MakePicture(c.ImageDistancePx(), c.distortion.data(), c.principal_point.data(), n).Project(P, pixel.data());
-	return pixel;
-}
+PictureView PictureViewOf(const StateCamera& c) { return { c.ImageDistancePx(), c.distortion, c.principal_point, c.LensNormal() }; }
 
-Vec3<double> Unproject(const StateCamera& c, const Point& pixel)
+std::optional<Point> Project(const StateCamera& c, const Vec3<double>& P) { return PixelOf(PictureViewOf(c), P); }
+
+std::optional<Vec3<double>> Unproject(const StateCamera& c, const Point& pixel) { return DirectionOf(PictureViewOf(c), pixel); }
+
+std::string FoldWarning(const StateCamera& c)
 {
-	const Vec3<double> n = c.LensNormal();
-	const tilt_lens::LensBasis<double> basis = tilt_lens::BasisOfLensPlane(n);
-	const double w = c.ImageDistancePx();
-	const Vec3<double> v{ (pixel[0] - c.principal_point[0]) / w, -(pixel[1] - c.principal_point[1]) / w, 1 };
-	return tilt_lens::UndistortDirection(c.distortion.data(), basis.a, basis.b, n, v);
+	const std::optional<Point> fold = FirstFold(PictureViewOf(c), c.width, c.height);
+	return fold ? fmt::format("state {}: the distortion turns back inside the picture: pixel ({:.0f}, {:.0f}) sees nothing, and POV-Ray refuses this camera", c.state, (*fold)[0], (*fold)[1]) : "";
 }
 
 double BlurWidth(const StateCamera& c, const Vec3<double>& P)
 {
+	if (!c.KnowsFocus())
+		return std::numeric_limits<double>::quiet_NaN();
 	const double kappa_z = tilt_lens::InverseFocusDistanceOnBowl(c.PlaneOfFocus(), c.field_curvature_per_mm, c.LensNormal(), P);
 	return c.ImageDistancePx() * c.aperture_diameter_mm * std::abs(1 - kappa_z) / P.z;
 }
@@ -125,6 +121,8 @@ std::optional<std::vector<Point>> Footprint(const StateCamera& c, const Vec3<dou
 	const Vec3<double> n = c.LensNormal(), q = c.PlaneOfFocus();
 	const tilt_lens::LensBasis<double> basis = tilt_lens::BasisOfLensPlane(n);
 	std::vector<Point> outline;
+	if (!c.KnowsFocus())
+		return std::nullopt;
 	for (size_t i = 0; i < count; ++i)
 	{
 		const double angle = 2 * tilt_lens::Pi * double(i) / double(count), radius = 0.5 * c.aperture_diameter_mm;

@@ -124,12 +124,12 @@ std::vector<PoseMinimum> PoseFit::Starts() const
 {
 	std::vector<cv::Point3d> world;
 	std::vector<cv::Point2d> image;
-	const tilt_lens::LensBasis<double> basis = tilt_lens::BasisOfLensPlane(normal);
-	const double w = camera.ImageDistancePx();
+	StateCamera flat = camera;
+	flat.distortion = {};
 	for (const PosePoint& p : points)
 	{
-		const Vec3<double> seen{ (p.u - camera.principal_point[0]) / w, -(p.v - camera.principal_point[1]) / w, 1 };
-		const Vec3<double> v = tilt_lens::UndistortDirection(camera.distortion.data(), basis.a, basis.b, normal, seen);
+		const Point pixel{ p.u, p.v };
+		const Vec3<double> v = Unproject(camera, pixel).value_or(*Unproject(flat, pixel));
 		world.emplace_back(p.world.x, -p.world.y, p.world.z);
 		image.emplace_back(v.x / v.z, -v.y / v.z);
 	}
@@ -156,7 +156,7 @@ std::vector<PoseMinimum> PoseFit::Starts() const
 	{
 		// Some points in ten may be mistaken for others.
 		cv::Mat rvec, tvec;
-		if (points.size() >= 6 && cv::solvePnPRansac(world, image, K, cv::noArray(), rvec, tvec, false, 300, static_cast<float>(3 * FIRST_LOSS_PX / w), 0.999,
+		if (points.size() >= 6 && cv::solvePnPRansac(world, image, K, cv::noArray(), rvec, tvec, false, 300, static_cast<float>(3 * FIRST_LOSS_PX / camera.ImageDistancePx()), 0.999,
 				cv::noArray(), cv::SOLVEPNP_AP3P))
 			starts.push_back(FromOpenCv(rvec, tvec));
 	});

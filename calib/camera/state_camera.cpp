@@ -160,7 +160,7 @@ void ReadEffects(const Node& top, StateCamera& c)
 		return;
 	const Node blades = top["blades"];
 	c.blades = { blades["count"].Count(), blades["rotation_deg"].Number(), blades["curvature"].Number() };
-	c.aperture_diameter_mm = blades["aperture_diameter_mm"].Positive();
+	c.aperture_diameter_mm *= blades["aperture_diameter_mm"].Positive() / top["aperture_diameter_mm"].Positive();
 }
 
 /// Where U cannot be told from infinity, it is null, and 1/U has all that is known. Files of import have U only.
@@ -176,23 +176,30 @@ double ReadFocus(const Node& state)
 
 Json NumberOrNull(double x) { return std::isfinite(x) ? Json(x) : Json(); }
 
+/// What has the thin camera that is written: the one without distortion, where that is no effect. Files of import, and old ones, have one alone.
+Node ThinFit(const Node& top)
+{
+	const bool bare = top.json->contains("effects") && top.json->contains("render") && !Used(top["effects"], EffectId::DISTORTION);
+	return bare ? top["render"] : top;
+}
+
 StateCamera ThinCamera(const Node& top, const std::string& name)
 {
-	const Node state = FindState(top, name);
+	const Node fit = ThinFit(top), state = FindState(fit, name);
 	StateCamera c;
 	c.state = state["name"].Text();
-	c.model = top[top.json->contains("thin_model") ? "thin_model" : "model"].Text();
+	c.model = fit[fit.json->contains("thin_model") ? "thin_model" : "model"].Text();
 	const Node size = top["image_size_px"];
 	size.NeedList(2);
 	c.width = size.At(0).Count();
 	c.height = size.At(1).Count();
 	c.pitch_mm = top["pixel_pitch_mm"].Positive();
-	c.image_distance_mm = top["image_distance_mm"].Positive();
+	c.image_distance_mm = fit["image_distance_mm"].Positive();
 	const Node centre = state["principal_point_px"];
 	centre.NeedList(2);
 	c.principal_point = { centre.At(0).Number(), centre.At(1).Number() };
 	for (size_t k = 0; k < 5; ++k)
-		c.distortion[k] = top["distortion"][DISTORTION_NAMES[k]].Number();
+		c.distortion[k] = fit["distortion"][DISTORTION_NAMES[k]].Number();
 	// The thin camera's, where the file's answer is a real lens.
 	const Node thin = state.json->contains("thin") ? state["thin"] : state;
 	const Node tilt = thin["lens_tilt_deg"];
@@ -201,8 +208,8 @@ StateCamera ThinCamera(const Node& top, const std::string& name)
 		tilt.Fail(fmt::format("is {}, not between -90 and 90", c.lens_tilt_deg));
 	c.tilt_direction_deg = thin["tilt_direction_deg"].Number();
 	c.focus_distance_mm = ReadFocus(state);
-	c.aperture_diameter_mm = top["aperture_diameter_mm"].NumberOr(0);
-	c.field_curvature_per_mm = top["field_curvature_per_mm"].NumberOr(0);
+	c.aperture_diameter_mm = fit["aperture_diameter_mm"].NumberOr(0);
+	c.field_curvature_per_mm = fit["field_curvature_per_mm"].NumberOr(0);
 	ReadEffects(top, c);
 	return c;
 }
@@ -270,7 +277,7 @@ std::optional<StateCamera> ReadRealLensCamera(const std::string& file, const std
 				c.rims_mm[k] = { rims.At(k)["radius_mm"].Positive(), rims.At(k)["distance_mm"].Number() };
 		}
 		c.model = "lens";
-		c.aperture_diameter_mm *= lens["aperture_diameter_mm"].Positive() / top["aperture_diameter_mm"].Positive();   // blades widen both
+		c.aperture_diameter_mm *= lens["aperture_diameter_mm"].Positive() / ThinFit(top)["aperture_diameter_mm"].Positive();   // blades widen both
 		c.image_distance_mm = state["exit_pupil_to_sensor_mm"].Positive() / a.pupil_magnification;
 		const Node centre = state["principal_point_px"];
 		centre.NeedList(2);

@@ -5,6 +5,7 @@
 #ifndef TILTCAL_STATE_CAMERA_H
 #define TILTCAL_STATE_CAMERA_H
 
+#include "model/picture_view.h"
 #include <tiltcal/camera.h>
 
 #include <optional>
@@ -15,6 +16,12 @@ namespace tiltcal
 
 /// Of a picture in a file; more is a mistake.
 const int MOST_PIXELS_A_SIDE = 1000000;
+
+/// How it puts directions in its picture.
+PictureView PictureViewOf(const StateCamera& camera);
+
+/// What to say of a camera whose distortion has no inverse all over its picture; else empty.
+std::string FoldWarning(const StateCamera& camera);
 
 /// What one fit says of a state's camera, without any choice of effects.
 StateCamera CameraOfFit(const Task& task, const Solution& solution, const Geometry& geometry, size_t state);

@@ -5,6 +5,7 @@
 #include "camera/camera_block.h"
 #include "camera/camera_macros.h"
 #include "camera/real_lens_words.h"
+#include "effects/fixed_blades.h"
 #include "model/projection.h"
 #include <tiltcal/camera.h>
 
@@ -31,7 +32,7 @@ StateCamera CameraOfLens(const Calibration& c, size_t s)
 	camera.sigma.principal_point = state.principal_point_sigma;
 	camera.distortion = {};
 	camera.field_curvature_per_mm = 0;
-	camera.aperture_diameter_mm *= lens.aperture_diameter_mm.value / c.solution.aperture_diameter.value;
+	camera.aperture_diameter_mm = lens.aperture_diameter_mm.value * WideningForBlades(camera.blades);
 	camera.sigma.aperture_diameter_mm = lens.aperture_diameter_mm.sigma;
 	camera.lens_tilt_deg = state.lens.lens_tilt.value;
 	camera.sigma.lens_tilt_deg = state.lens.lens_tilt.sigma;

@@ -13,6 +13,7 @@
 #include <tiltcal/error.h>
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <cmath>
 #include <memory>
@@ -71,7 +72,7 @@ void ExportMaps(const Options& o, const StateCamera& camera, FileSet& set)
 	if (!o.rays.empty())
 	{
 		WriteRayMap(camera, o.rays, set);
-		fmt::print("{}: ray.X, ray.Y, ray.Z, focus.Z (mm)\n", o.rays);
+		fmt::print("{}: ray.X, ray.Y, ray.Z{}\n", o.rays, camera.KnowsFocus() ? ", focus.Z (mm)" : "; the plane of focus is unknown");
 	}
 }
 
@@ -83,11 +84,11 @@ void ExportScenes(const Options& o, const StateCamera& camera, FileSet& set)
 		fmt::print("{}: not in it: {}\n", file, lost);
 	};
 	if (!o.blender.empty())
-		write(o.blender, BlenderScript(camera, o.unit_mm), "the tilt of focus (the plane of focus is an object), distortion (--stmap), field curvature, rims");
+		write(o.blender, BlenderScript(camera, o.unit_mm), "the tilt of focus (the plane of focus is an object), distortion (--stmap), field curvature, rims" + LostBlades(camera, MOST_BLENDER_BLADES));
 	if (!o.renderman.empty())
 		write(o.renderman, RenderManText(camera, o.unit_mm), "distortion (--stmap), field curvature, rims, blades");
 	if (!o.arnold.empty())
-		write(o.arnold, ArnoldText(camera, o.unit_mm), "the tilt of focus, distortion (--stmap), field curvature, rims");
+		write(o.arnold, ArnoldText(camera, o.unit_mm), "the tilt of focus, distortion (--stmap), field curvature, rims" + LostBlades(camera, camera.blades.count));
 	if (o.colmap.empty())
 		return;
 	const ColmapCamera c = ToColmap(camera);
@@ -107,6 +108,8 @@ void Run(const Options& o)
 	if (!o.opencv.empty())
 		ExportOpenCv(o, camera);
 	set.Commit();
+	if (const std::string fold = FoldWarning(camera); !fold.empty())
+		spdlog::warn("{}", fold);
 }
 
 }

@@ -50,6 +50,8 @@ void Run(const Options& o)
 	// Below this no picture can show it.
 	if (lost_px > 0.01)
 		spdlog::warn("{}: fx and fy differ; with their mean, pixels at the picture's edge move by up to {:.2f} px", o.in, lost_px);
+	if (const std::string fold = FoldWarning(camera); !fold.empty())
+		spdlog::warn("{}", fold);
 	fmt::print("state {}: image distance {:.6g} mm, lens tilt {:.4f} degrees towards {:.2f}\n", camera.state, camera.image_distance_mm,
 		camera.lens_tilt_deg, camera.tilt_direction_deg);
 	fmt::print("unknown: aperture and plane of focus, which OpenCV's model has not; the camera is a pinhole\nwritten to {}\n", o.out);

@@ -51,14 +51,16 @@ void AddProject(CLI::App& app)
 {
 	AddList(app, "project", "Where a camera sees points, and how blurred.", "x,y,z", ProjectedPoints)
 		->footer(fmt::format("Example:\n  tiltcal project points.csv --calibration calibration/calibration.json --state plus5\n\n"
-			"Gives x,y,z,u_px,v_px,blur_px: the pixel, and the diameter of the blur disc; empty for points that are not in front of the lens.\n{}", FRAME));
+			"Gives x,y,z,u_px,v_px,blur_px: the pixel, and the diameter of the blur disc; empty for points that are not in front of the lens\n"
+			"or beyond what its distortion is known for. The blur of an imported camera is unknown, and empty.\n{}", FRAME));
 }
 
 void AddUnproject(CLI::App& app)
 {
 	AddList(app, "unproject", "What pixels see: directions, and where on them is in focus.", "u_px,v_px", UnprojectedPixels)
 		->footer(fmt::format("Example:\n  tiltcal unproject pixels.csv --calibration calibration/calibration.json --state plus5\n\n"
-			"Gives u_px,v_px,x,y,z,focus_z_mm: a unit direction, and the depth z of the point in focus on it; inf: none, < 0: only behind the lens.\n{}", FRAME));
+			"Gives u_px,v_px,x,y,z,focus_z_mm: a unit direction, and the depth z of the point in focus on it; inf: none, < 0: only behind the lens;\n"
+			"empty where the distortion has no inverse.\n{}", FRAME));
 }
 
 }

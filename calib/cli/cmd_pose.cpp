@@ -58,6 +58,8 @@ void Run(const Options& o)
 	const std::optional<StateCamera> real = through_real ? ReadRealLensCamera(o.calibration, camera.state) : std::nullopt;
 	if (o.real_lens && !real)
 		throw UsageError(fmt::format("--real-lens: {} has no real lens for its answer: calibrate with --model lens", o.calibration));
+	if (const std::string fold = FoldWarning(real ? *real : camera); !fold.empty())
+		spdlog::warn("{}", fold);
 	const std::vector<PosePoint> points = ReadPosePoints(o.points);
 	for (const std::string& file : { o.out, o.overlay })
 		if (!file.empty())

@@ -4,6 +4,7 @@
 
 #include "base/file_set.h"
 #include "base/files.h"
+#include "base/plain_text.h"
 #include "exchange/undistort.h"
 #include "picture/image_io.h"
 #include "program/progress.h"
@@ -89,8 +90,11 @@ void Run(const Options& o)
 	for (size_t i = 0; i < files.size(); ++i)
 	{
 		FileSet set;
-		WriteLinear(resampling.Of(ReadLinear(files[i], transfer), files[i]), transfer, outputs[i], set);
+		PhotographFacts facts;
+		WriteLinear(resampling.Of(ReadLinear(files[i], transfer, &facts), files[i]), transfer, outputs[i], set);
 		set.Commit();
+		if (!facts.left_out.empty())
+			spdlog::warn("{}: not in {}: {} (light alone is read; a compositor's STMap moves every channel: tiltcal export --stmap)", files[i], outputs[i], OneLine(facts.left_out));
 		spdlog::info("{} of {}: {}", i + 1, files.size(), outputs[i]);
 		progress->Done(i + 1);
 	}
@@ -116,7 +120,7 @@ void AddUndistort(CLI::App& app)
 	c->add_option("--transfer", o->transfer, "Transfer curve of 8 and 16 bit pictures, in and out: srgb, linear or a gamma")->capture_default_str();
 	c->footer("Example:\n  tiltcal undistort photos/plus5-*.jpg --calibration calibration/calibration.json --state plus5 --out flat\n\n"
 		"Resampled in linear light, bicubic. In the undistorted picture straight lines are straight, also of a tilted lens, whose\n"
-		"distortion is about its own axis; image distance and principal point are the calibration's. EXIF is not kept.\n"
+		"distortion is about its own axis; image distance and principal point are the calibration's. EXIF, alpha and OpenEXR's further channels are not kept.\n"
 		"Exit codes: 0 done, 1 refused, 2 wrong usage, 3 unreadable or unwritable file.");
 	c->callback([o] { Run(*o); });
 }

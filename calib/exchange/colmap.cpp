@@ -3,6 +3,7 @@
 #include "exchange/colmap.h"
 
 #include "base/plain_text.h"
+#include "camera/state_camera.h"
 #include "lens/distortion.h"
 
 #include <tiltcal/error.h>
@@ -48,8 +49,10 @@ std::vector<PixelError> Grid(const StateCamera& c)
 		for (int i = 0; i <= 32; ++i)
 		{
 			const Point pixel{ i / 32.0 * (c.width - 1), j / 32.0 * (c.height - 1) };
-			const Vec3<double> v = Unproject(c, pixel);
-			grid.push_back({ v.x / v.z, -v.y / v.z, pixel });
+			const std::optional<Vec3<double>> v = Unproject(c, pixel);
+			if (!v)
+				throw Refused(FoldWarning(c));
+			grid.push_back({ v->x / v->z, -v->y / v->z, pixel });
 		}
 	return grid;
 }

@@ -19,21 +19,13 @@ namespace tiltcal
 namespace
 {
 
-/// Of what Project and Unproject give back, px: rounding is some 1e-9.
-const double ROUND_TRIP_PX = 1e-3;
-
-/// Where `from` sees what `to` sees at a pixel. Brown's polynomial turns back beyond its largest angle, and would show there what is
-/// inside: what does not come back is nowhere.
+/// Where `from` sees what `to` sees at a pixel; NaN where that is nowhere, or nothing.
 cv::Vec2f PlaceOf(const StateCamera& to, const StateCamera& from, const Point& pixel)
 {
+	const std::optional<Vec3<double>> seen = Unproject(to, pixel);
+	const std::optional<Point> place = seen ? Project(from, *seen) : std::nullopt;
 	const float nan = std::numeric_limits<float>::quiet_NaN();
-	const std::optional<Point> place = Project(from, Unproject(to, pixel));
-	if (!place)
-		return { nan, nan };
-	const std::optional<Point> back = Project(to, Unproject(from, *place));
-	if (!back || !(std::hypot((*back)[0] - pixel[0], (*back)[1] - pixel[1]) < ROUND_TRIP_PX))
-		return { nan, nan };
-	return { float((*place)[0]), float((*place)[1]) };
+	return place ? cv::Vec2f{ float((*place)[0]), float((*place)[1]) } : cv::Vec2f{ nan, nan };
 }
 
 /// Every pixel of the picture's rim.

@@ -9,6 +9,7 @@
 #include <opencv2/core/utility.hpp>
 
 #include <cmath>
+#include <limits>
 
 namespace tiltcal
 {
@@ -56,26 +57,31 @@ double FocusDepth(const StateCamera& camera, const Vec3<double>& v)
 void WriteRayMap(const StateCamera& camera, const std::string& file, FileSet& set)
 {
 	std::map<std::string, cv::Mat> channels;
-	for (const char* name : { "ray.X", "ray.Y", "ray.Z", "focus.Z" })
+	std::vector<std::string> names{ "ray.X", "ray.Y", "ray.Z" };
+	if (camera.KnowsFocus())
+		names.push_back("focus.Z");
+	for (const std::string& name : names)
 		channels[name] = cv::Mat(camera.height, camera.width, CV_32FC1);
-	cv::Mat x = channels["ray.X"], y = channels["ray.Y"], z = channels["ray.Z"], focus = channels["focus.Z"];
+	cv::Mat x = channels["ray.X"], y = channels["ray.Y"], z = channels["ray.Z"], focus = camera.KnowsFocus() ? channels["focus.Z"] : cv::Mat();
 	cv::parallel_for_({ 0, camera.height }, [&](const cv::Range& rows)
 	{
 		for (int j = rows.start; j < rows.end; ++j)
 			for (int i = 0; i < camera.width; ++i)
 			{
-				const Vec3<double> v = Unproject(camera, { double(i), double(j) });
+				const double nan = std::numeric_limits<double>::quiet_NaN();
+				const Vec3<double> v = Unproject(camera, { double(i), double(j) }).value_or(Vec3<double>{ nan, nan, nan });
 				const double length = std::sqrt(Dot(v, v));
 				x.at<float>(j, i) = float(v.x / length);
 				y.at<float>(j, i) = float(v.y / length);
 				z.at<float>(j, i) = float(v.z / length);
-				focus.at<float>(j, i) = float(FocusDepth(camera, v));
+				if (!focus.empty())
+					focus.at<float>(j, i) = float(FocusDepth(camera, v));
 			}
 	});
 	set.Write(file, [&](const std::string& temporary)
 	{
 		return WriteExr(temporary, channels, { { "tiltcal_state", camera.state },
-			{ "comments", "ray: unit direction, x right, y up, z forward; focus.Z: depth of what is in focus on it, mm" } });
+			{ "comments", "ray: unit direction, x right, y up, z forward; focus.Z: depth of what is in focus on it, mm; NaN where the distortion has no inverse" } });
 	});
 }
 

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 
 namespace tiltcal
 {
@@ -37,9 +38,9 @@ std::string ProjectedPoints(const StateCamera& camera, const std::string& file)
 		const std::vector<double> x = NumbersOf(row, 3, header, file);
 		const Vec3<double> P{ x[0], x[1], x[2] };
 		const std::optional<Point> pixel = Project(camera, P);
+		out += fmt::format("{:.12g},{:.12g},{:.12g},", P.x, P.y, P.z);
 		// 1e-9 px: more digits than any camera has.
-		out += pixel ? fmt::format("{:.12g},{:.12g},{:.12g},{:.9f},{:.9f},{:.9f}\n", P.x, P.y, P.z, (*pixel)[0], (*pixel)[1], BlurWidth(camera, P))
-			: fmt::format("{:.12g},{:.12g},{:.12g},,,\n", P.x, P.y, P.z);
+		out += pixel ? fmt::format("{:.9f},{:.9f},{}\n", (*pixel)[0], (*pixel)[1], camera.KnowsFocus() ? fmt::format("{:.9f}", BlurWidth(camera, P)) : "") : ",,\n";
 	}
 	return out;
 }
@@ -51,9 +52,10 @@ std::string UnprojectedPixels(const StateCamera& camera, const std::string& file
 	for (const CsvRow& row : ReadCsvRows(file, header))
 	{
 		const std::vector<double> p = NumbersOf(row, 2, header, file);
-		const Vec3<double> v = Unproject(camera, { p[0], p[1] });
-		const double length = std::sqrt(Dot(v, v));
-		out += fmt::format("{:.12g},{:.12g},{:.15g},{:.15g},{:.15g},{:.12g}\n", p[0], p[1], v.x / length, v.y / length, v.z / length, FocusDepth(camera, v));
+		const std::optional<Vec3<double>> v = Unproject(camera, { p[0], p[1] });
+		const double length = v ? std::sqrt(Dot(*v, *v)) : 0;
+		out += fmt::format("{:.12g},{:.12g},", p[0], p[1]);
+		out += v ? fmt::format("{:.15g},{:.15g},{:.15g},{}\n", v->x / length, v->y / length, v->z / length, camera.KnowsFocus() ? fmt::format("{:.12g}", FocusDepth(camera, *v)) : "") : ",,,\n";
 	}
 	return out;
 }

@@ -13,6 +13,12 @@
 namespace tiltcal
 {
 
+/// Most blades that Blender takes.
+const int MOST_BLENDER_BLADES = 16;
+
+/// What of a camera's blades a program that takes their number, `most` of them, does not get, as ", ..."; empty where there is nothing.
+std::string LostBlades(const StateCamera& camera, int most);
+
 /// A script for Blender (bpy): camera with sensor, shift and aperture, resolution, and the plane of focus as an object, its child. `unit_mm`:
 /// millimetres of a unit of the scene.
 std::string BlenderScript(const StateCamera& camera, double unit_mm);

@@ -3,6 +3,7 @@
 #include "exchange/view.h"
 
 #include "exchange/maps.h"
+#include "exchange/scene_files.h"
 #include "model/projection.h"
 
 #include <fmt/format.h>
@@ -33,6 +34,8 @@ View ViewOf(const StateCamera& c)
 	view.shift_y_mm = shift[1] * c.pitch_mm;
 	view.centre = { view.shift_x_mm / c.image_distance_mm, view.shift_y_mm / c.image_distance_mm, 1 };
 	view.focus_depth_mm = FocusDepth(c, view.centre);
+	if (!c.KnowsFocus())
+		return view;
 	const Vec3<double> q = c.PlaneOfFocus();
 	const double inverse = std::sqrt(Dot(q, q));
 	if (!(inverse > 1 / FAR_MM))
@@ -56,6 +59,12 @@ std::string SceneName(const StateCamera& camera)
 	for (const char c : camera.state)
 		name += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
 	return name;
+}
+
+std::string LostBlades(const StateCamera& camera, int most)
+{
+	const FixedBlades& b = camera.blades;
+	return b.count > most ? fmt::format(", the {} blades (a disc instead)", b.count) : b.count ? fmt::format(", rotation and curvature of the {} blades", b.count) : "";
 }
 
 std::string SceneNumber(double value) { return fmt::format("{:.15g}", value); }

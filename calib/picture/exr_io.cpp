@@ -73,7 +73,7 @@ bool HasRgb(const std::string& file, const Imf::ChannelList& channels)
 
 }
 
-cv::Mat DecodeExr(const PictureFile& picture)
+cv::Mat DecodeExr(const PictureFile& picture, std::string* left_out)
 {
 	const std::string& file = picture.name;
 	try
@@ -86,6 +86,10 @@ cv::Mat DecodeExr(const PictureFile& picture)
 		const Imath::Box2i window = input.header().dataWindow();
 		CheckWindow(file, window);
 		const bool rgb = HasRgb(file, input.header().channels());
+		const std::string read = rgb ? "RGB" : "Y";
+		for (auto c = input.header().channels().begin(); left_out && c != input.header().channels().end(); ++c)
+			if (std::strlen(c.name()) != 1 || read.find(c.name()[0]) == std::string::npos)
+				*left_out += (left_out->empty() ? "" : ", ") + std::string(c.name());
 
 		const int count = rgb ? 3 : 1;
 		cv::Mat image(window.max.y - window.min.y + 1, window.max.x - window.min.x + 1, CV_MAKETYPE(CV_32F, count));

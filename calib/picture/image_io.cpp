@@ -27,16 +27,16 @@ namespace tiltcal
 namespace
 {
 
-cv::Mat Decode(const PictureFile& picture)
+cv::Mat Decode(const PictureFile& picture, std::string& left_out)
 {
 	switch (picture.format)
 	{
-	case PictureFormat::PNG: return DecodePng(picture);
+	case PictureFormat::PNG: return DecodePng(picture, &left_out);
 	case PictureFormat::JPEG: return DecodeJpeg(picture);
-	case PictureFormat::TIFF: return DecodeTiff(picture);
+	case PictureFormat::TIFF: return DecodeTiff(picture, &left_out);
 	case PictureFormat::EXR: break;
 	}
-	return DecodeExr(picture);
+	return DecodeExr(picture, &left_out);
 }
 
 /// Linear float of an integer picture through a table of its codes.
@@ -79,10 +79,12 @@ void CheckLight(const std::string& file, const cv::Mat& linear)
 cv::Mat ReadAndLinearise(const std::string& file, const Transfer& transfer, PhotographFacts* facts)
 {
 	const PictureFile picture = ReadPictureFile(file);
-	cv::Mat image = Decode(picture);
+	std::string left_out;
+	cv::Mat image = Decode(picture, left_out);
 	if (facts)
 	{
 		*facts = ReadFacts(picture, image.cols);
+		facts->left_out = left_out;
 		facts->subsampled_colour = picture.format == PictureFormat::JPEG && HasSubsampledColour(picture);
 	}
 	switch (image.depth())

@@ -24,7 +24,7 @@ struct PhotographFacts;
 /// applied, in any format: pixels are where the sensor had them.
 /// Throws FileError, and nothing else, for anything that is not a whole picture of these
 /// (picture_file.h has the limits): also CMYK, NaN or infinite pixels, negative light.
-/// `facts`, when given, receives what EXIF says.
+/// `facts`, when given, receives what EXIF says, and which channels are left out.
 cv::Mat ReadLinear(const std::string& file, const Transfer& transfer, PhotographFacts* facts = nullptr);
 
 /// Luminance (Rec. 709 / sRGB primaries) as CV_32FC1.

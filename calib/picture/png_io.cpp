@@ -104,7 +104,7 @@ void Run(Reader& reader, void (*step)(Reader&))
 
 }
 
-cv::Mat DecodePng(const PictureFile& picture)
+cv::Mat DecodePng(const PictureFile& picture, std::string* left_out)
 {
 	Reader reader{ picture };
 	reader.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &reader, OnError, OnWarning);
@@ -123,6 +123,8 @@ cv::Mat DecodePng(const PictureFile& picture)
 	const long long width = png_get_image_width(reader.png, reader.info), height = png_get_image_height(reader.png, reader.info);
 	CheckPictureSize(picture.name, width, height);
 	CheckLength(reader, picture.name);
+	if (left_out && ((png_get_color_type(reader.png, reader.info) & PNG_COLOR_MASK_ALPHA) || png_get_valid(reader.png, reader.info, PNG_INFO_tRNS)))
+		*left_out = "alpha";
 	Run(reader, Prepare);
 	const int channels = png_get_channels(reader.png, reader.info), depth = png_get_bit_depth(reader.png, reader.info);
 	if ((channels != 1 && channels != 3) || (depth != 8 && depth != 16))

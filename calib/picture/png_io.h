@@ -11,8 +11,8 @@ namespace tiltcal
 {
 
 /// Decodes a PNG of any kind as coded: CV_8U or CV_16U, one channel or three (blue first). Palettes and
-/// 1, 2, 4 bits become 8, alpha is dropped, gAMA is ignored. Throws FileError, also when only a part is there.
-cv::Mat DecodePng(const PictureFile& picture);
+/// 1, 2, 4 bits become 8, alpha is dropped (`left_out` then names it), gAMA is ignored. Throws FileError, also when only a part is there.
+cv::Mat DecodePng(const PictureFile& picture, std::string* left_out = nullptr);
 
 }
 

@@ -181,9 +181,11 @@ bool ReadTiles(const std::string& file, TIFF* tiff, const Layout& l, cv::Mat& im
 	return true;
 }
 
-cv::Mat Decode(const PictureFile& picture, TIFF* tiff, const std::string& error)
+cv::Mat Decode(const PictureFile& picture, TIFF* tiff, const std::string& error, std::string* left_out)
 {
 	const Layout l = ReadLayout(picture.name, tiff);
+	if (left_out && l.samples > l.colours)
+		*left_out = "alpha";
 	cv::Mat image(static_cast<int>(l.height), static_cast<int>(l.width), CV_MAKETYPE(l.depth, l.colours));
 	const bool whole = TIFFIsTiled(tiff) ? ReadTiles(picture.name, tiff, l, image) : ReadStrips(tiff, l, image);
 	if (!whole || !error.empty())
@@ -197,7 +199,7 @@ cv::Mat Decode(const PictureFile& picture, TIFF* tiff, const std::string& error)
 
 }
 
-cv::Mat DecodeTiff(const PictureFile& picture)
+cv::Mat DecodeTiff(const PictureFile& picture, std::string* left_out)
 {
 	static const bool handlers = [] { TIFFSetErrorHandler(OnError); TIFFSetWarningHandler(OnWarning); return true; }();
 	(void) handlers;
@@ -215,7 +217,7 @@ cv::Mat DecodeTiff(const PictureFile& picture)
 		first_error = nullptr;
 		throw FileError(fmt::format("{}: damaged TIFF: {}; copy it again", picture.name, error));
 	}
-	return Decode(picture, tiff.get(), error);
+	return Decode(picture, tiff.get(), error, left_out);
 }
 
 }

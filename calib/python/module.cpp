@@ -81,7 +81,7 @@ Array UnprojectAll(const StateCamera& c, const Array& pixels)
 {
 	return ForPoints(pixels, 2, { 3 }, [&](const double* p, double* out)
 	{
-		const Vec3<double> v = Unproject(c, { p[0], p[1] });
+		const Vec3<double> v = Unproject(c, { p[0], p[1] }).value_or(Vec3<double>{ NONE, NONE, NONE });
 		const double length = std::sqrt(Dot(v, v));
 		out[0] = v.x / length;
 		out[1] = v.y / length;
@@ -204,7 +204,7 @@ void AddCamera(py::module_& m)
 		.def_property_readonly("lens_normal", [](const StateCamera& c) { return ArrayOf(c.LensNormal()); }, "(3,), unit")
 		.def_property_readonly("plane_of_focus", [](const StateCamera& c) { return ArrayOf(c.PlaneOfFocus()); }, "(3,), 1/mm: q, in focus is where q.P = 1")
 		.def("project", &ProjectAll, py::arg("points"), "points (..., 3), mm -> pixels (..., 2). NaN: not in front of the lens.")
-		.def("unproject", &UnprojectAll, py::arg("pixels"), "pixels (..., 2) -> unit directions (..., 3) of what they see through the lens centre.")
+		.def("unproject", &UnprojectAll, py::arg("pixels"), "pixels (..., 2) -> unit directions (..., 3) of what they see through the lens centre; NaN where the distortion has no inverse.")
 		.def("blur", &BlurAll, py::arg("points"), "points (..., 3), mm -> diameters of their blur discs (...), px, to first order. NaN: not in front of the lens.")
 		.def("footprint", &FootprintAll, py::arg("points"), py::arg("count") = 64, "points (..., 3), mm -> outlines of their blur discs (..., count, 2), px.")
 		.def("povray", [](const StateCamera& c, double unit_mm) { return CameraBlockOf(c, {}, unit_mm); }, py::arg("unit_mm") = 1.0,

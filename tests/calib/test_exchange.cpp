@@ -236,7 +236,7 @@ TEST_F(Exchange, ColmapOfATiltedLensSaysHowNearItIs)
 		for (int i = 0; i <= 32; ++i, ++count)
 		{
 			const Point pixel{ i / 32.0 * (c.width - 1), j / 32.0 * (c.height - 1) };
-			const Vec3<double> v = Unproject(c, pixel);
+			const Vec3<double> v = Unproject(c, pixel).value();
 			const auto error = [&](const cv::Matx33d& matrix, const Distortion& d)
 			{
 				std::vector<cv::Point2d> seen;
@@ -294,7 +294,7 @@ TEST_F(Exchange, PicturesAreResampled)
 	const StateCamera c = Camera();
 	const Margins margins = MarginsOfAll(c);
 	const StateCamera flat = FlatView(c, margins);
-	const cv::Mat photo = Picture(c, [&](int x, int y) { return Unproject(c, { double(x), double(y) }); });
+	const cv::Mat photo = Picture(c, [&](int x, int y) { return Unproject(c, { double(x), double(y) }).value(); });
 	const cv::Mat straight = Picture(flat, [&](int x, int y) { return PinholeDirection(flat, x, y); });
 	// Keys: a = -1/2 is off by the third derivative times (2 s^3 - 3 s^2 + s) / 6, 0.01604 at most, and 1/384 of the fourth, each way. Places
 	// are floats, off by 2^-12 px each way. The lens stretches by less than 1.25; light below 1 in floats is off by 2^-24, in some 32 products.
@@ -348,7 +348,7 @@ TEST_F(Exchange, FootprintsAreWhatTheLensPointsSee)
 		{
 			// MODEL.md: from S on the rim, the pixel's ray has the direction v - kappa(v) S, and P lies on it. S is where the line through P
 			// meets the rim: S = (P - t v) / (1 - t kappa), in the lens plane and 8 mm from its centre.
-			const Vec3<double> v = Unproject(c, pixel);
+			const Vec3<double> v = Unproject(c, pixel).value();
 			const double kappa = Dot(q, v) + c.field_curvature_per_mm * Dot(v, n) * Dot((1 / Dot(v, n)) * v - n, (1 / Dot(v, n)) * v - n);
 			const double t = Dot(P, n) / Dot(v, n);   // S.n = 0
 			const Vec3<double> S = (1 / (1 - t * kappa)) * (P - t * v);

@@ -92,7 +92,7 @@ TEST(Library, IsHeardByItsListenerOnly)
 
 	// A point in the plane of focus is sharp, and the camera's two ways are each other's inverse: rounding of some thousand pixels.
 	const StateCamera camera = CameraOfState(c, 1);
-	const Vec3<double> q = camera.PlaneOfFocus(), v = Unproject(camera, { 400, 300 });
+	const Vec3<double> q = camera.PlaneOfFocus(), v = Unproject(camera, { 400, 300 }).value();
 	const Vec3<double> P = (1 / Dot(q, v)) * v;
 	EXPECT_NEAR(BlurWidth(camera, P), 0, 1e-9);
 	EXPECT_GT(BlurWidth(camera, 1.1 * P), 1);

@@ -217,6 +217,11 @@ effects_written)
 	! grep -qE '^		(distortion|vignetting optical|field_curvature|chromatic)' result/camera-untilted.inc || fail "more than was asked for"
 	grep -q 'Rim_Radius.*not used: not in --effects' result/camera-untilted.inc || fail "the rim is not said to be unused"
 	prints '^  vignetting_natural  written'
+	# What other commands read is the camera that is written, not the one with the distortion that was not asked for.
+	printf 'x,y,z\n100,0,500\n' >point.csv; expect 0 project point.csv --calibration result/calibration.json
+	number() { sed -n "s/^#declare TiltCal_untilted_$1 = \([-0-9.e]*\);.*/\1/p" result/camera-untilted.inc; }
+	echo "$(number Principal_Point_X) $(number Image_Distance) $(sed -n 2p out | cut -d, -f4)" | awk '{ print; off = $1 + $2 / 0.02 * 0.2 - $3; exit !(NF == 3 && off < 1e-4 && off > -1e-4) }' >seen ||
+		fail "another camera: $(cat seen)"
 	refuses 1 "--effects: chromatic_lateral could not be estimated: the photographs are grey" "$@" --effects chromatic_lateral ;;
 flat_field)
 	# An even grey of 8 bits, a step from column to column for its noise: TIFF's header, nine entries, then the pixels.

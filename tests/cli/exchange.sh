@@ -76,7 +76,14 @@ points)
 	cmp -s out new/seen.csv || fail "standard input gives other pixels"
 	refuses 3 "pixels.csv:1: 'u_px,v_px' is not the header x,y,z" project pixels.csv $c
 	sed '3s/,.*//' points.csv >cut.csv; refuses 3 "cut.csv:3: .*not 3 numbers x,y,z" project cut.csv $c
-	refuses 3 nowhere.csv unproject nowhere.csv $c ;;
+	refuses 3 nowhere.csv unproject nowhere.csv $c
+	# What is not known is empty, and said: where the distortion turns back, and what OpenCV's model has not.
+	sed 's/2400\./900./g; s/-0.125, 0.02/-0.3, 0./' camera.yml >wide.yml
+	expect 0 import wide.yml --pitch 0.02 --out wide.json; grep -q "distortion turns back inside the picture: pixel (.*) sees nothing, and POV-Ray refuses this camera" err || fail "not said"
+	expect 0 unproject pixels.csv --calibration wide.json; [ "$(sed -n 2p out)" = "0,0,,,," ] || fail "a direction where there is none"
+	sed -n 3p out | grep -q '^900.5,600.25,.*[0-9],$' || fail "a focus that nobody knows"
+	expect 0 export --calibration wide.json --rays rays.exr; grep -q "distortion turns back" err || fail "not said"; prints "the plane of focus is unknown"
+	refuses 1 "distortion turns back" export --calibration wide.json --colmap colmap.txt ;;
 undistort)
 	mkdir photos; cp "$photos/scene/untilted.jpg" photos/a.jpg; cp "$photos/scene/plus5.jpg" photos/b.jpg; echo text >photos/notes.txt
 	expect 0 undistort photos $c --out flat --overscan auto; prints "100.0 % of the photograph"

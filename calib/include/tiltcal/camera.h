@@ -49,7 +49,7 @@ struct StateCamera
 	Distortion distortion{};           ///< about the lens axis
 	/// As reported: folded into (-90, 90], the tilt carries the sign.
 	double lens_tilt_deg = 0, tilt_direction_deg = 0;
-	double focus_distance_mm = 0;      ///< U on the axis; infinite where it is that, or unknown; < 0: beyond infinity
+	double focus_distance_mm = 0;      ///< U on the axis; infinite where it is that; < 0: beyond infinity; means nothing unless KnowsFocus
 	double aperture_diameter_mm = 0;   ///< d; 0 where it is unknown
 	double field_curvature_per_mm = 0;
 	// Effects that the calibration writes; empty or false: not.
@@ -68,6 +68,8 @@ struct StateCamera
 	TILTCAL_API Vec3<double> LensNormal() const;
 	/// q, 1/mm: the plane of focus is { P : q.P = 1 }; of a bowl, the plane that touches it on the lens axis.
 	TILTCAL_API Vec3<double> PlaneOfFocus() const;
+	/// False of an imported camera: OpenCV's model has neither an aperture nor a plane of focus.
+	bool KnowsFocus() const { return aperture_diameter_mm > 0; }
 	bool IsTilted() const { return lens_tilt_deg != 0; }
 	bool HasDistortion() const { return distortion != Distortion{}; }
 };
@@ -83,21 +85,22 @@ TILTCAL_API StateCamera CameraOfState(const Calibration& calibration, size_t sta
 /// listed).
 TILTCAL_API StateCamera ReadStateCamera(const std::string& file, const std::string& state);
 
-/// Pixel where the camera sees P (camera frame, mm). None: P is not in front of the lens plane, or its z is not above 0.
+/// Pixel where the camera sees P (camera frame, mm). None: P is not in front of the lens plane, its z is not above 0, or it is beyond the angle
+/// where the distortion turns back.
 TILTCAL_API std::optional<Point> Project(const StateCamera& camera, const Vec3<double>& P);
 
 /// Direction of what the pixel sees through the lens centre, camera frame. Its length means nothing: (u, v, 1) of the pixel with the
-/// distortion taken off.
-TILTCAL_API Vec3<double> Unproject(const StateCamera& camera, const Point& pixel);
+/// distortion taken off. None where the distortion turns back before it leads there: nothing is known of such pixels.
+TILTCAL_API std::optional<Vec3<double>> Unproject(const StateCamera& camera, const Point& pixel);
 
 /// Diameter of the blur disc of a point on the sensor, px, to first order: w d |1/z - kappa|, kappa the inverse focus distance
 /// on the bowl (the paper's (2) with its plane of focus taken along the ray). Without the lens's own blur; with blades, that of the circle
-/// through their corners. z > 0.
+/// through their corners. z > 0. NaN unless KnowsFocus.
 TILTCAL_API double BlurWidth(const StateCamera& camera, const Vec3<double>& P);
 
 /// The outline of the blur disc of a point P on the sensor, px: the pixels that see P through `count` lens points on the rim of the
 /// circular opening, in equal steps of angle from the lens's own x axis towards its y axis. Exact for a thin lens, on the bowl where there is
-/// one, with the distortion. z > 0; none where P is not in front of the lens.
+/// one, with the distortion. z > 0; none where P is not in front of the lens, or unless KnowsFocus.
 TILTCAL_API std::optional<std::vector<Point>> Footprint(const StateCamera& camera, const Vec3<double>& P, size_t count = 64);
 
 /// Where a camera stands in a scene: scene units, unit vectors at right angles, left-handed.

@@ -24,6 +24,7 @@ struct PhotographFacts
 	int orientation = 1;                     ///< 1 to 8; 1: as the sensor had it
 	std::string make, model, lens;
 	bool subsampled_colour = false;          ///< a JPEG that stores colour at less than full size; not from EXIF
+	std::string left_out;                    ///< channels of the file that are not in the picture: alpha, and OpenEXR's further ones
 
 	TILTCAL_API bool Empty() const;
 };

@@ -23,7 +23,7 @@ try
 		const tiltcal::StateCamera camera = tiltcal::CameraOfState(calibration, s);
 		const tiltcal::Estimate tilt = calibration.TiltOf(s).lens_tilt;
 		std::printf("%s tilt %.4f +- %.4f degrees\n", camera.state.c_str(), tilt.value, tilt.sigma);
-		const tiltcal::Vec3<double> P = 700.0 * tiltcal::Unproject(camera, { 300, 200 });
+		const tiltcal::Vec3<double> P = 700.0 * tiltcal::Unproject(camera, { 300, 200 }).value();
 		const tiltcal::Point pixel = *tiltcal::Project(camera, P);
 		std::printf("%s sees (300, 200) at (%.6f, %.6f), blurred by %.3f px\n", camera.state.c_str(), pixel[0], pixel[1], tiltcal::BlurWidth(camera, P));
 	}
