@@ -8,13 +8,13 @@
 namespace tiltcal
 {
 
-QuietLibraries::QuietLibraries() : glog_level(FLAGS_minloglevel), opencv_level(cv::utils::logging::getLogLevel())
+LibrariesMuted::LibrariesMuted() : glog_level(FLAGS_minloglevel), opencv_level(cv::utils::logging::getLogLevel())
 {
 	FLAGS_minloglevel = google::GLOG_FATAL;
 	cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
 }
 
-QuietLibraries::~QuietLibraries()
+LibrariesMuted::~LibrariesMuted()
 {
 	FLAGS_minloglevel = glog_level;
 	cv::utils::logging::setLogLevel(static_cast<cv::utils::logging::LogLevel>(opencv_level));

@@ -5,22 +5,24 @@
 #ifndef TILTCAL_QUIET_H
 #define TILTCAL_QUIET_H
 
+#include "base/while_any.h"
+
 namespace tiltcal
 {
 
-/// While one lives, glog (Ceres) and OpenCV are silent; then they log as before. Their switches are the process's: other threads
-/// that use them are silent too.
-class QuietLibraries
+/// Makes glog (Ceres) and OpenCV silent.
+class LibrariesMuted
 {
 public:
-	QuietLibraries();
-	~QuietLibraries();
-	QuietLibraries(const QuietLibraries&) = delete;
-	QuietLibraries& operator=(const QuietLibraries&) = delete;
+	LibrariesMuted();
+	~LibrariesMuted();
 
 private:
 	int glog_level, opencv_level;
 };
+
+/// While one lives, they are silent; then they log as before. Their switches are the process's: other threads that use them are silent too.
+using QuietLibraries = WhileAny<LibrariesMuted>;
 
 }
 

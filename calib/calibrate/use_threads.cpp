@@ -11,19 +11,25 @@
 namespace tiltcal
 {
 
-UseThreads::UseThreads(int most) : solver_before(LimitThreads(0)), opencv_before(cv::getNumThreads())
+ThreadsKept::ThreadsKept() : solver_before(LimitThreads(0)), opencv_before(cv::getNumThreads())
 {
-	LimitThreads(most > 0 ? most : solver_before);
-	if (most < 0)
-		throw UsageError(fmt::format("`threads` {}: give 0 for all processors, or a number of threads", most));
-	if (most > 0)
-		cv::setNumThreads(most);
+	LimitThreads(solver_before);
 }
 
-UseThreads::~UseThreads()
+ThreadsKept::~ThreadsKept()
 {
 	LimitThreads(solver_before);
 	cv::setNumThreads(opencv_before);
+}
+
+UseThreads::UseThreads(int most)
+{
+	if (most < 0)
+		throw UsageError(fmt::format("`threads` {}: give 0 for all processors, or a number of threads", most));
+	if (most == 0)
+		return;
+	LimitThreads(most);
+	cv::setNumThreads(most);
 }
 
 }

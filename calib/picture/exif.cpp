@@ -92,7 +92,12 @@ PhotographFacts ReadFacts(const PictureFile& picture, int width)
 	// Exiv2's XMP toolkit is one for the process.
 	static std::mutex one_at_a_time;
 	const std::lock_guard<std::mutex> lock(one_at_a_time);
-	Exiv2::LogMsg::setLevel(Exiv2::LogMsg::mute);
+	struct Muted
+	{
+		Exiv2::LogMsg::Level before = Exiv2::LogMsg::level();
+		Muted() { Exiv2::LogMsg::setLevel(Exiv2::LogMsg::mute); }
+		~Muted() { Exiv2::LogMsg::setLevel(before); }
+	} const muted;
 	try
 	{
 		const auto image = Exiv2::ImageFactory::open(reinterpret_cast<const Exiv2::byte*>(picture.bytes.data()), static_cast<long>(picture.bytes.size()));

@@ -2,6 +2,7 @@
 
 #include "picture/tiff_io.h"
 
+#include "base/while_any.h"
 #include <tiltcal/error.h>
 
 #include <fmt/format.h>
@@ -42,6 +43,18 @@ void OnWarning(const char* module, const char* format, va_list arguments)
 	if (module && std::strcmp(module, "JPEGLib") == 0)
 		OnError(module, format, arguments);
 }
+
+struct Handlers
+{
+	TIFFErrorHandler error = TIFFSetErrorHandler(OnError), warning = TIFFSetWarningHandler(OnWarning);
+	Handlers() = default;
+	Handlers(const Handlers&) = delete;
+	~Handlers()
+	{
+		TIFFSetErrorHandler(error);
+		TIFFSetWarningHandler(warning);
+	}
+};
 
 struct Memory
 {
@@ -201,8 +214,7 @@ cv::Mat Decode(const PictureFile& picture, TIFF* tiff, const std::string& error,
 
 cv::Mat DecodeTiff(const PictureFile& picture, std::string* left_out)
 {
-	static const bool handlers = [] { TIFFSetErrorHandler(OnError); TIFFSetWarningHandler(OnWarning); return true; }();
-	(void) handlers;
+	const WhileAny<Handlers> handlers;
 	std::string error;
 	first_error = &error;
 	Memory memory{ picture.bytes };

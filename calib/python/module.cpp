@@ -125,6 +125,15 @@ Poses ParsePoses(const std::string& text)
 	throw UsageError("`poses` '" + text + "': there is auto, shared, own");
 }
 
+/// Of a message: a file's name in it may be in another encoding.
+py::str Text(const std::string& message)
+{
+	PyObject* text = PyUnicode_DecodeUTF8(message.data(), static_cast<py::ssize_t>(message.size()), "backslashreplace");
+	if (!text)
+		throw py::error_already_set();
+	return py::reinterpret_steal<py::str>(text);
+}
+
 /// `progress` hears every message; Ctrl-C stops at the next one.
 Log LogTo(const py::object& progress)
 {
@@ -134,7 +143,7 @@ Log LogTo(const py::object& progress)
 		if (PyErr_CheckSignals() != 0)
 			throw py::error_already_set();
 		if (!progress.is_none())
-			progress(message);
+			progress(Text(message));
 	});
 }
 
@@ -196,17 +205,17 @@ void AddCamera(py::module_& m)
 		.def_readonly("pitch_mm", &StateCamera::pitch_mm, "distance of the sensor's pixels")
 		.def_readonly("image_distance_mm", &StateCamera::image_distance_mm, "w, from the lens to the sensor")
 		.def_readonly("aperture_diameter_mm", &StateCamera::aperture_diameter_mm, "d; 0: unknown")
-		.def_readonly("focus_distance_mm", &StateCamera::focus_distance_mm, "U; inf: that, or unknown; < 0: beyond infinity")
+		.def_readonly("focus_distance_mm", &StateCamera::focus_distance_mm, "U; inf: that; < 0: beyond infinity; means nothing where the aperture is unknown")
 		.def_readonly("field_curvature_per_mm", &StateCamera::field_curvature_per_mm)
 		.def_readonly("lens_tilt_deg", &StateCamera::lens_tilt_deg).def_readonly("tilt_direction_deg", &StateCamera::tilt_direction_deg)
 		.def_property_readonly("principal_point", [](const StateCamera& c) { return ArrayOf(c.principal_point); }, "(2,), px")
 		.def_property_readonly("distortion", [](const StateCamera& c) { return ArrayOf(c.distortion); }, "(5,): k1, k2, p1, p2, k3, about the lens axis")
 		.def_property_readonly("lens_normal", [](const StateCamera& c) { return ArrayOf(c.LensNormal()); }, "(3,), unit")
 		.def_property_readonly("plane_of_focus", [](const StateCamera& c) { return ArrayOf(c.PlaneOfFocus()); }, "(3,), 1/mm: q, in focus is where q.P = 1")
-		.def("project", &ProjectAll, py::arg("points"), "points (..., 3), mm -> pixels (..., 2). NaN: not in front of the lens.")
+		.def("project", &ProjectAll, py::arg("points"), "points (..., 3), mm -> pixels (..., 2). NaN: not in front of the lens, or beyond what its distortion is known for.")
 		.def("unproject", &UnprojectAll, py::arg("pixels"), "pixels (..., 2) -> unit directions (..., 3) of what they see through the lens centre; NaN where the distortion has no inverse.")
-		.def("blur", &BlurAll, py::arg("points"), "points (..., 3), mm -> diameters of their blur discs (...), px, to first order. NaN: not in front of the lens.")
-		.def("footprint", &FootprintAll, py::arg("points"), py::arg("count") = 64, "points (..., 3), mm -> outlines of their blur discs (..., count, 2), px.")
+		.def("blur", &BlurAll, py::arg("points"), "points (..., 3), mm -> diameters of their blur discs (...), px, to first order. NaN: not seen, or the aperture is unknown (an imported camera's).")
+		.def("footprint", &FootprintAll, py::arg("points"), py::arg("count") = 64, "points (..., 3), mm -> outlines of their blur discs (..., count, 2), px; NaN as of blur.")
 		.def("povray", [](const StateCamera& c, double unit_mm) { return CameraBlockOf(c, {}, unit_mm); }, py::arg("unit_mm") = 1.0,
 			"The camera { tilt_lens { ... } } block for the patched POV-Ray, at the origin; the scene declares TiltCal_Blur_Samples, and TiltCal_Denoise = 1 where it wants denoise.")
 		.def("__repr__", [](const StateCamera& c) { return "<tiltcal.Camera " + c.state + ", tilt " + std::to_string(c.lens_tilt_deg) + " degrees>"; });
@@ -222,9 +231,9 @@ void AddCalibration(py::module_& m)
 		.def_property_readonly("grade", [](const Calibration& c) { return c.IsJudged() ? std::optional<std::string>(NameOf(c.verdict.grade)) : std::nullopt; }, "good, fair or poor; None of the paper's method, which is not judged")
 		.def_property_readonly("remarks", [](const Calibration& c)
 		{
-			std::vector<std::string> texts;
+			py::list texts;
 			for (const Remark& remark : c.verdict.remarks)
-				texts.push_back(remark.text);
+				texts.append(Text(remark.text));
 			return texts;
 		}, "what speaks against it, and what to photograph")
 		.def("tilt", [](const Calibration& c, const std::string& state)
@@ -251,7 +260,18 @@ PYBIND11_MODULE(tiltcal, m)
 {
 	m.doc() = "Calibrates a tilted lens from photographs of a board, and sees through it.";
 	m.attr("__version__") = TILTCAL_VERSION;
-	py::register_exception<Error>(m, "Error", PyExc_ValueError);
+	static py::exception<Error> error(m, "Error", PyExc_ValueError);
+	py::register_exception_translator([](std::exception_ptr thrown)
+	{
+		try
+		{
+			std::rethrow_exception(thrown);
+		}
+		catch (const Error& e)
+		{
+			PyErr_SetObject(error.ptr(), Text(e.what()).ptr());
+		}
+	});
 	AddCamera(m);
 	AddCalibration(m);
 }

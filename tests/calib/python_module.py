@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """python_module.py FOLDER: the module's shapes, numbers and errors, on the demo's photographs."""
 import inspect
+import os
 import sys
+import tempfile
 from pathlib import Path
 
 import numpy as np
@@ -64,6 +66,17 @@ refuses("`state` untilted:f_number=N", lambda: tiltcal.calibrate([photos / "unti
 refuses("f_number", lambda: tiltcal.calibrate([photos / "untilted-1.jpg"], {}, f_number=0, **few))
 refuses("`model` 'thin'", lambda: tiltcal.calibrate([photos / "untilted-1.jpg"], {}, **{**few, "model": "thin"}))
 refuses("nowhere.json", lambda: tiltcal.read_camera("nowhere.json"))
+# Names that are not UTF-8, in errors and messages.
+refuses("h\\xe4user.json", lambda: tiltcal.read_camera(os.fsdecode(b"h\xe4user.json")))
+with tempfile.TemporaryDirectory() as folder:
+	photo = os.path.join(os.fsencode(folder), b"h\xe4user.jpg")
+	os.symlink(os.fsencode(photos / "untilted-1.jpg"), photo)
+	heard = []
+	try:
+		tiltcal.calibrate([os.fsdecode(photo)], {}, **{**few, "progress": heard.append})
+	except tiltcal.Error:
+		pass
+	assert any("h\\xe4user.jpg" in text for text in heard), heard
 
 
 def stop(text):

@@ -3,13 +3,17 @@
 // Photographs on several threads: what is measured, and what is said, is what one thread measures and says.
 
 #include "calibrate/in_order.h"
+#include "calibrate/quiet.h"
+#include "calibrate/use_threads.h"
 #include <tiltcal/calibrate.h>
 #include <tiltcal/error.h>
 
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
+#include <opencv2/core/utils/logger.hpp>
 
 #include <atomic>
+#include <memory>
 #include <cstring>
 #include <numeric>
 #include <stdexcept>
@@ -130,6 +134,31 @@ TEST(Threads, WorkIsToldInOrderByTheCaller)
 		[&](size_t k) { last = k; if (k == 41) throw std::runtime_error("tell"); }), std::runtime_error);
 	EXPECT_EQ(last, 41u);
 	cv::setNumThreads(-1);
+}
+
+/// Two calls of a program's, the first of which ends first: the switches are as the program had them, and silent until the last ends.
+TEST(Threads, CallsThatOverlapLeaveTheProgramsSwitches)
+{
+	namespace logging = cv::utils::logging;
+	const logging::LogLevel level = logging::getLogLevel();
+	logging::setLogLevel(logging::LOG_LEVEL_INFO);
+	const int before = cv::getNumThreads();
+	cv::setNumThreads(3);
+	auto quiet = std::make_unique<QuietLibraries>();
+	auto one = std::make_unique<UseThreads>(1);
+	auto also_quiet = std::make_unique<QuietLibraries>();
+	auto two = std::make_unique<UseThreads>(2);
+	quiet.reset();
+	one.reset();
+	EXPECT_EQ(logging::getLogLevel(), logging::LOG_LEVEL_SILENT);
+	EXPECT_EQ(cv::getNumThreads(), 2);
+	also_quiet.reset();
+	two.reset();
+	EXPECT_EQ(logging::getLogLevel(), logging::LOG_LEVEL_INFO);
+	EXPECT_EQ(cv::getNumThreads(), 3);
+	EXPECT_THROW(UseThreads(-1), Error);
+	logging::setLogLevel(level);
+	cv::setNumThreads(before);
 }
 
 }
