@@ -2,6 +2,7 @@
 
 #include "cli/commands.h"
 
+#include "program/program.h"
 #include "program/progress.h"
 #include <tiltcal/photo.h>
 #include <tiltcal/error.h>
@@ -71,7 +72,7 @@ void Run(const Options& o)
 		progress->Done(photos.size());
 	}
 	progress.reset();
-	fmt::print("{}", found);
+	fmt::print(ReportBeside({ o.csv }), "{}", found);
 	// Nothing lies beside a device.
 	if (!PlaceOf(o.csv).through)
 		set.Text(EdgesName(o.csv), EdgesCsv(photos));

@@ -8,6 +8,7 @@
 #include "exchange/colmap.h"
 #include "exchange/maps.h"
 #include "exchange/scene_files.h"
+#include "program/program.h"
 #include "program/progress.h"
 
 #include <tiltcal/error.h>
@@ -52,10 +53,10 @@ void ExportOpenCv(const Options& o, const StateCamera& camera)
 {
 	WriteOpenCv(camera, o.opencv);
 	const OpenCvCamera c = ToOpenCv(camera);
-	fmt::print("state {}: f {:.4f} px, centre ({:.4f}, {:.4f}) px", camera.state, c.fx, c.centre[0], c.centre[1]);
+	fmt::print(ReportBeside(o.Files()), "state {}: f {:.4f} px, centre ({:.4f}, {:.4f}) px", camera.state, c.fx, c.centre[0], c.centre[1]);
 	if (camera.IsTilted())
-		fmt::print(", tauX {:.6f}, tauY {:.6f} (radians)", c.tau_x, c.tau_y);
-	fmt::print("\nlost: {}\nwritten to {}\n", LostInOpenCv(), o.opencv);
+		fmt::print(ReportBeside(o.Files()), ", tauX {:.6f}, tauY {:.6f} (radians)", c.tau_x, c.tau_y);
+	fmt::print(ReportBeside(o.Files()), "\nlost: {}\nwritten to {}\n", LostInOpenCv(), o.opencv);
 }
 
 void ExportMaps(const Options& o, const StateCamera& camera, FileSet& set)
@@ -66,13 +67,13 @@ void ExportMaps(const Options& o, const StateCamera& camera, FileSet& set)
 		auto progress = std::make_unique<Progress>("working out the STMaps");
 		const double share = WriteStMaps(camera, margins, o.stmap, set);
 		progress.reset();
-		fmt::print("{0}-undistort.exr, {0}-redistort.exr: photograph {1} x {2}, undistorted {3} x {4}, which shows {5:.1f} % of the photograph\n", o.stmap, camera.width,
+		fmt::print(ReportBeside(o.Files()), "{0}-undistort.exr, {0}-redistort.exr: photograph {1} x {2}, undistorted {3} x {4}, which shows {5:.1f} % of the photograph\n", o.stmap, camera.width,
 			camera.height, camera.width + 2 * margins.x, camera.height + 2 * margins.y, 100 * share);
 	}
 	if (!o.rays.empty())
 	{
 		WriteRayMap(camera, o.rays, set);
-		fmt::print("{}: ray.X, ray.Y, ray.Z{}\n", o.rays, camera.KnowsFocus() ? ", focus.Z (mm)" : "; the plane of focus is unknown");
+		fmt::print(ReportBeside(o.Files()), "{}: ray.X, ray.Y, ray.Z{}\n", o.rays, camera.KnowsFocus() ? ", focus.Z (mm)" : "; the plane of focus is unknown");
 	}
 }
 
@@ -81,7 +82,7 @@ void ExportScenes(const Options& o, const StateCamera& camera, FileSet& set)
 	const auto write = [&](const std::string& file, const std::string& text, const std::string& lost)
 	{
 		set.Text(file, text);
-		fmt::print("{}: not in it: {}\n", file, lost);
+		fmt::print(ReportBeside(o.Files()), "{}: not in it: {}\n", file, lost);
 	};
 	if (!o.blender.empty())
 		write(o.blender, BlenderScript(camera, o.unit_mm), "the tilt of focus (the plane of focus is an object), distortion (--stmap), field curvature, rims" + LostBlades(camera, MOST_BLENDER_BLADES));

@@ -3,6 +3,7 @@
 #include "cli/commands.h"
 
 #include <tiltcal/calibrate.h>
+#include "program/program.h"
 #include <tiltcal/error.h>
 #include "base/files.h"
 #include "camera/opencv_yaml.h"
@@ -52,9 +53,10 @@ void Run(const Options& o)
 		spdlog::warn("{}: fx and fy differ; with their mean, pixels at the picture's edge move by up to {:.2f} px", o.in, lost_px);
 	if (const std::string fold = FoldWarning(camera); !fold.empty())
 		spdlog::warn("{}", fold);
-	fmt::print("state {}: image distance {:.6g} mm, lens tilt {:.4f} degrees towards {:.2f}\n", camera.state, camera.image_distance_mm,
+	std::FILE* const report = ReportBeside({ o.out });
+	fmt::print(report, "state {}: image distance {:.6g} mm, lens tilt {:.4f} degrees towards {:.2f}\n", camera.state, camera.image_distance_mm,
 		camera.lens_tilt_deg, camera.tilt_direction_deg);
-	fmt::print("unknown: aperture and plane of focus, which OpenCV's model has not; the camera is a pinhole\nwritten to {}\n", o.out);
+	fmt::print(report, "unknown: aperture and plane of focus, which OpenCV's model has not; the camera is a pinhole\nwritten to {}\n", o.out);
 }
 
 }

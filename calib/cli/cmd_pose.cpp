@@ -2,6 +2,7 @@
 
 #include "cli/commands.h"
 
+#include "program/program.h"
 #include <tiltcal/error.h>
 #include "base/file_set.h"
 #include "base/files.h"
@@ -44,7 +45,7 @@ void Report(const Options& o, const PhotoPose& solved, const std::string& inc, F
 		fmt::print("{}", inc);
 		return;
 	}
-	fmt::print("{}written to {}\n", text, o.out);
+	fmt::print(ReportBeside({ o.out }), "{}written to {}\n", text, o.out);
 }
 
 void Run(const Options& o)

@@ -2,6 +2,7 @@
 
 #include "cli/commands.h"
 
+#include "program/program.h"
 #include <tiltcal/error.h>
 #include "base/file_set.h"
 #include "base/files.h"
@@ -50,7 +51,7 @@ void Run(const Options& o)
 	if (!o.json.empty())
 		set.Text(o.json, ComparisonJson(c, { o.a, o.b }));
 	set.Commit();
-	fmt::print("{}", ComparisonText(c));
+	fmt::print(ReportBeside({ o.json }), "{}", ComparisonText(c));
 }
 
 }

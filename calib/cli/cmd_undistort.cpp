@@ -49,9 +49,10 @@ std::vector<std::string> Pictures(const Options& o)
 	std::vector<std::string> files;
 	for (const std::string& name : o.pictures)
 	{
-		const bool folder = std::filesystem::is_directory(name);
+		std::error_code unreachable;   // ExpandGlobs says so
+		const bool folder = std::filesystem::is_directory(name, unreachable);
 		for (const std::string& file : ExpandGlobs({ folder ? Join(AsPattern(name), "*") : name }, "PICTURE"))
-			if (!folder || (std::filesystem::is_regular_file(file) && IsPicture(file)))
+			if (!folder || (std::filesystem::is_regular_file(file, unreachable) && IsPicture(file)))
 				files.push_back(file);
 	}
 	if (files.empty())

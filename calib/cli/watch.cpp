@@ -349,7 +349,8 @@ private:
 
 void Watch(const CalibrateRun& run)
 {
-	if (!std::filesystem::is_directory(run.words.watch))
+	std::error_code unreachable;
+	if (!std::filesystem::is_directory(run.words.watch, unreachable))
 		throw FileError(fmt::format("--watch {}: no such folder; give the one that the camera's photographs arrive in", run.words.watch));
 	PrepareFolder(run.words.out);
 	CatchInterrupts(Second::ENDS);

@@ -18,6 +18,8 @@
 #include <locale>
 #include <memory>
 #include <mutex>
+#include <sys/stat.h>
+#include <unistd.h>
 
 namespace tiltcal
 {
@@ -108,6 +110,16 @@ Log ProgramLog()
 	{
 		spdlog::log(severity == Severity::WARNING ? spdlog::level::warn : spdlog::level::info, "{}", Harmless(SpelledAsOptions(message)));
 	});
+}
+
+std::FILE* ReportBeside(const std::vector<std::string>& outputs)
+{
+	struct stat out, nothing, its;
+	const bool seen = fstat(STDOUT_FILENO, &out) == 0 && !(stat("/dev/null", &nothing) == 0 && nothing.st_rdev == out.st_rdev && S_ISCHR(out.st_mode));
+	for (const std::string& output : outputs)
+		if (seen && stat(output.c_str(), &its) == 0 && its.st_dev == out.st_dev && its.st_ino == out.st_ino)
+			return stderr;
+	return stdout;
 }
 
 std::string CommandLine(int argc, const char* const* argv)

@@ -7,8 +7,10 @@
 
 #include <tiltcal/log.h>
 
+#include <cstdio>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace tiltcal
 {
@@ -19,6 +21,9 @@ int RunProgram(const std::string& name, const std::function<int()>& run);
 
 /// Writes to the program's messages, inputs spelled as options.
 Log ProgramLog();
+
+/// Where a report goes beside these outputs: stdout, but stderr where one of them is written there (/dev/stdout).
+std::FILE* ReportBeside(const std::vector<std::string>& outputs);
 
 /// The command line for a shell to read; the program without its folder.
 std::string CommandLine(int argc, const char* const* argv);

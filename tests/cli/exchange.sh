@@ -102,6 +102,7 @@ undistort)
 	refuses 2 "--format jpg" undistort photos/a.jpg $c --out x --format jpg
 	mkdir empty; : >empty/notes.txt; refuses 3 "empty: holds no pictures" undistort empty $c --out x
 	refuses 3 "no file matches" undistort 'nowhere*.jpg' $c --out x
+	ln -s round round; refuses 3 "round" undistort round $c --out x
 	nothing_left ;;
 *) echo "unknown case $case"; exit 99 ;;
 esac

@@ -110,7 +110,9 @@ links_devices)
 	if mknod null.json c 1 3 2>/dev/null && echo x 2>/dev/null >null.json; then
 		expect 0 import camera.yml --pitch 0.02 --out null.json; [ -c null.json ] || fail "the device was replaced"
 	fi
-	"$tiltcal" import camera.yml --pitch 0.02 --out /dev/stdout | grep -q '"image_distance_mm": 48' || fail "/dev/stdout"
+	"$tiltcal" import camera.yml --pitch 0.02 --out /dev/stdout >got 2>err || fail "/dev/stdout"; same got camera.json; says "written to /dev/stdout"
+	expect 0 export --calibration camera.json --colmap /dev/stdout --renderman camera.rib; grep -v '^#' out >got; [ "$(wc -l <got)" = 1 ] || fail "more than the camera"; says "not in it"
+	expect 0 detect --board 12x9 "$target/untilted-1.jpg" --csv /dev/stdout; [ -z "$(grep -v '^[^,]*,[^,]*,' out)" ] || fail "more than the corners"
 	expect 0 detect --board 12x9 "$target/untilted-1.jpg" --csv /dev/stderr; [ "$(grep -c ',' err)" -ge 89 ] || fail "no corners on /dev/stderr"
 	mkdir folder.json; refuses 3 "folder.json.*is a folder" import camera.yml --pitch 0.02 --out folder.json
 	nothing_left ;;

@@ -81,7 +81,8 @@ watch_refused) # frontal or too few: a page that says so, exit code 1
 	[ $got = 1 ] || fail "exit code $got, expected 1"
 	grep -q 'state untilted has 0 photographs' result/report.html || fail "the page does not say what is missing"
 	none_left
-	"$tiltcal" calibrate $common --watch nowhere --untilted x --out result >out 2>err; [ $? = 3 ] || fail "a folder that is not there" ;;
+	"$tiltcal" calibrate $common --watch nowhere --untilted x --out result >out 2>err; [ $? = 3 ] || fail "a folder that is not there"
+	ln -s round round; "$tiltcal" calibrate $common --watch round --untilted x --out result >out 2>err; [ $? = 3 ] || fail "a folder that leads nowhere" ;;
 interrupt_calibrate)
 	start --untilted "$target/untilted-[1-3].jpg" --tilted plus5="$target/plus5-[1-3].jpg" --out result
 	# In the middle of writing: some are under temporary names.
