@@ -273,7 +273,7 @@ target_usage)
 	refuses 2 "suffix" target --board 12x9 --square 25 --out board.png
 	refuses 2 "no circles" target --board 12x9 --square 25 --circle-diameter 9 --out board.pdf
 	refuses 2 "circle-diameter" target --board 7x6 --square 25 --kind circles --circle-diameter 25 --out board.pdf
-	refuses 2 "out" target --board 12x9 --square 25 ;;
+	refuses 2 "--out is required" target --board 12x9 --square 25 ;;
 target_turned) # what looks the same upside down is said to
 	expect 0 target --board 12x8 --square 20 --out board.svg; says "turned by 180 degrees" ;;
 lens_files)
@@ -285,27 +285,27 @@ lens_files)
 	# Without --out the report alone; --back is the distance that the focus gave.
 	expect 0 lens "$glass" --scale 0.8935988484 --f-number 2.8 --back 35.6932; prints "focal length 45.0000"; prints "sensor 35.6932" ;;
 lens_usage)
-	refuses 2 "prescription" lens
-	refuses 2 "focal-length" lens "$glass" --focal-length 45 --scale 2
-	for value in 0 -1 nan; do refuses 2 "f-number" lens "$glass" --f-number=$value; done
+	refuses 2 "prescription is required" lens
+	refuses 2 "--focal-length and --scale both" lens "$glass" --focal-length 45 --scale 2
+	for value in 0 -1 nan; do refuses 2 "--f-number $value: give a number above 0" lens "$glass" --f-number=$value; done
 	refuses 2 "f/1.2" lens "$glass" --f-number 1.2
-	refuses 2 "focus" lens "$glass" --focus=-3
-	refuses 2 "size" lens "$glass" --size 1800
-	refuses 2 "terms" lens "$glass" --terms 7
-	refuses 2 "unknown" lens "$glass" --state a:tlit=5
+	refuses 2 "--focus -3: give a distance" lens "$glass" --focus=-3
+	refuses 2 "--size 1800: give WIDTHxHEIGHT" lens "$glass" --size 1800
+	refuses 2 "--terms 7: there are 6" lens "$glass" --terms 7
+	refuses 2 "'tlit' is unknown" lens "$glass" --state a:tlit=5
 	refuses 2 "needs a number" lens "$glass" --state a:tilt=steep
-	refuses 2 "beyond" lens "$glass" --state a:tilt=80
-	refuses 2 "'a' is already taken" lens "$glass" --state a --state a
-	refuses 2 "identifier\|letter" lens "$glass" --state 5up ;;
+	refuses 2 "a tilt of 80 degrees is beyond 60" lens "$glass" --state a:tilt=80
+	refuses 2 "NAME 'a' is already taken" lens "$glass" --state a --state a
+	refuses 2 "'5up' is not of letters.*beginning with a letter" lens "$glass" --state 5up ;;
 lens_unreadable)
 	refuses 3 missing.txt lens missing.txt
 	printf '10 2 1.5\n-10 x 1\n' >bad.txt; refuses 3 "bad.txt:2: 'x' is no number" lens bad.txt
 	: >blocked; refuses 3 blocked lens "$glass" --out blocked/lens ;;
 lens_refused)
-	printf 'stop 1 4\n-10 2 1.5\n10 0 air\n' >diverging.txt; refuses 1 diverging lens diverging.txt
-	printf 'stop 1 4\n10 2 1.5\n-10 0 air\n' >near.txt; refuses 1 "image" lens near.txt --focus 3
+	printf 'stop 1 4\n-10 2 1.5\n10 0 air\n' >diverging.txt; refuses 1 "diverging.txt: .*a diverging lens draws no picture" lens diverging.txt
+	printf 'stop 1 4\n10 2 1.5\n-10 0 air\n' >near.txt; refuses 1 "near.txt: has no image behind" lens near.txt --focus 3
 	# The sensor so near and large that only grazing light would reach it.
-	refuses 1 "rays\|no ray" lens "$glass" --back 0.01 --pitch 5 ;;
+	refuses 1 "only [0-9]* rays come through the glass" lens "$glass" --back 0.01 --pitch 5 ;;
 target_unwritable) : >blocked; refuses 3 blocked target --board 12x9 --square 25 --out blocked/board.pdf ;;
 pose_block)
 	camera; pose_points

@@ -114,7 +114,7 @@ run() {
 			fail "$small: $(tr '\r' '\n' < log.txt | tail -5)"
 		fi
 	done < ../list.txt
-	for file in board.pdf out/calibration/camera-plus5.inc out/profile/profile.png board.png plus5.png out/sketch.html cost.svg; do
+	for file in board.pdf out/calibration/camera-plus5.inc out/profile/profile.png board.png plus5.png out/sketch.html out/sketch-plus5.jpg cost.svg; do
 		[ -s $file ] || fail "no $file was written"
 	done
 	grep -q '</svg>' out/sketch.html || fail "no sketch in out/sketch.html"

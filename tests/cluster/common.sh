@@ -27,6 +27,7 @@ says() { grep -q -e "$1" err || fail "stderr does not say '$1'"; }
 prints() { grep -q -e "$1" out || fail "stdout does not say '$1'"; }
 folder() { sed -n 's/^Folder: //p' out; }
 pixels() { python3 "$here/../support/png_pixels.py" "$1" "$2" > same.txt 2>&1 || fail "$3: $(tail -1 same.txt)"; echo "$3: $(cat same.txt)"; }
+other_pixels() { python3 "$here/../support/png_pixels.py" --differ "$1" "$2" > same.txt 2>&1 || fail "$3: $(tail -1 same.txt)"; }
 
 # scene FILE CAMERA-WORDS [MORE]
 scene() {

@@ -146,7 +146,7 @@ film)
 	expect 0 s.pov $film --local 2 +Otwo/f.png; prints "3 frames"; prints "joined from 3 parts"
 	expect 0 s.pov $film --parts 6 --pilot-time 0.2s --local 2 +Othree/f.png; prints "joined from 6 parts"
 	for i in 1 2 3; do pixels one/f$i.png two/f$i.png "frame $i"; pixels one/f$i.png three/f$i.png "frame $i of strips"; done
-	python3 "$here/../support/png_pixels.py" one/f1.png one/f2.png > /dev/null 2>&1 && fail "the frames are all the same: nothing shown"
+	other_pixels one/f1.png one/f2.png "the frames are all the same: nothing shown"
 	# A part may hold several.
 	expect 0 s.pov $film --parts 2 --local 1 +Otwo/g.png; prints "3 parts: whole frames\|joined from 3 parts" ;;
 light)
@@ -160,7 +160,7 @@ light)
 	(cd "$dir/light" && "$bin/povray" "+I$work/s.pov" "+O$work/one.png" -D +WT1 +W64 +H49 +FN16 Declare=Strips_Light=2 > "$work/one.log" 2>&1) || fail "$(tail -3 one.log)"
 	pixels one.png s.png "photons saved once"
 	one none.png s.pov +W64 +H49 +FN16 Declare=Strips_Light=0; sed 's/photons { target.*on }/ /' s.pov > dark.pov; one dark.png dark.pov +W64 +H49 +FN16
-	python3 "$here/../support/png_pixels.py" none.png dark.png > same.txt 2>&1 && fail "the photons change nothing: nothing shown"
+	other_pixels none.png dark.png "the photons change nothing: nothing shown"
 	scene r.pov "$blur" "$light global_settings { radiosity { count 20 #if (Strips_Light = 2) pretrace_start 1 pretrace_end 1 always_sample off #end } }"
 	expect 0 r.pov $small --parts 2 --local 2 --light; [ -s "$(folder)/light/strips.rca" ] || fail "no radiosity"
 	# A film's light is that of its first frame, with photons and radiosity both.

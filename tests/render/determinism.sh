@@ -20,16 +20,45 @@ state() {
 	[ -f killed.pov-state ] && wc -c < killed.pov-state || echo 0
 }
 
+# start_to_kill OPTION...: killed.ppm, in the background.
+start_to_kill() {
+	"$ours" -D $size -A +WT1 +FP16 File_Gamma=1 "+L$here" +Iscene.pov +Okilled.ppm "$@" < /dev/null > killed.log 2>&1 &
+	process=$!
+}
+# until_or_ended COMMAND...
+until_or_ended() {
+	until "$@" || ! kill -0 $process 2> /dev/null; do
+		sleep 0.02
+	done
+}
+# Whether it was killed, and not at its end before (128 + 9), and left what can be continued.
+killed() {
+	kill -9 $process 2> /dev/null
+	wait $process 2> /dev/null
+	[ $? = 137 ] && [ "$(state)" -gt 0 ]
+}
+
+larger() { [ "$(state)" -gt "$1" ]; }
 # kill_at BYTES: begins or continues killed.ppm, and kills it when its state, which grows by 12 kB with every block, is larger.
 kill_at() {
-	"$ours" -D $size -A +WT1 +FP16 File_Gamma=1 "+L$here" +Iscene.pov +Okilled.ppm +C < /dev/null > killed.log 2>&1 &
-	process=$!
-	until [ "$(state)" -gt "$1" ] || ! kill -0 $process 2> /dev/null; do
-		sleep 0.05
-	done
-	kill -9 $process 2> /dev/null || fail "finished before it could be killed"
-	wait $process 2> /dev/null
+	start_to_kill +C
+	until_or_ended larger "$1"
+	killed || fail "finished before it could be killed"
 	echo "killed with $(state) bytes of state"
+}
+
+traced() { [ "$(tr '\r' '\n' < killed.log | sed -n 's/.*pixels (\([0-9]*\)%).*/\1/p' | tail -1 | grep . || echo 0)" -ge "$1" ]; }
+# kill_traced PERCENT [shown]: begins killed.ppm, and kills it when so much is traced; shown: and its state has grown since. Where it was too late,
+# again: how fast the machine is nobody knows.
+kill_traced() {
+	for attempt in 1 2 3 4 5 6 7 8 9 10; do
+		rm -f killed.ppm killed.pov-state
+		start_to_kill
+		until_or_ended traced "$1"
+		[ "${2:-}" != shown ] || until_or_ended larger "$(state)"
+		killed && traced "$1" && echo "killed at $* % with $(state) bytes of state" && return
+	done
+	fail "finished ten times before it could be killed at $* %"
 }
 
 # PROGRAM, what it shows, the last row of the upper part, the last row of all
@@ -92,26 +121,17 @@ denoise)
 	scene "$(echo "$lens" | sed 's/tilt_lens *{/tilt_lens { denoise/')" "$blur" ""
 	threads_and_strips "$ours" "tilt, blur and denoise"
 	grep 'before denoise' whole.ppm.log || fail "not denoised: nothing shown"
-	# An interrupted one begins anew, and ends the same: killed at several times, some of them in the second pass, which shows the pixels, a
-	# fourth of all the time here. None of these may be taken for final.
+	# An interrupted one begins anew, and ends the same: killed at several times, some of them in the second pass, which begins when all is traced and
+	# shows the pixels. None of these may be taken for final.
 	scene "$(echo "$lens" | sed 's/tilt_lens *{/tilt_lens { denoise/')" "blur_samples 2" ""
 	size="+W640 +H480"
-	began=$(date +%s%N)
 	render "$ours" whole.ppm scene.pov $size
-	took=$(($(date +%s%N) - began))
-	killed=0
-	for percent in 40 75 85 95; do
-		rm -f killed.ppm killed.pov-state
-		"$ours" -D $size -A +WT1 +FP16 File_Gamma=1 "+L$here" +Iscene.pov +Okilled.ppm < /dev/null > killed.log 2>&1 &
-		process=$!
-		sleep $(awk "BEGIN { print $took * $percent / 1e11 }")
-		kill -9 $process 2> /dev/null && killed=$((killed + 1))
-		wait $process 2> /dev/null
+	for moment in 40 90 100 '100 shown'; do
+		kill_traced $moment
 		render "$ours" killed.ppm scene.pov $size +C
-		check "killed after $percent %, continued" "$compare" same whole.ppm killed.ppm
+		grep -q 'Continued trace......On' killed.ppm.log || fail "not continued"
+		check "killed at $moment %, continued" "$compare" same whole.ppm killed.ppm
 	done
-	# A faster moment of the machine may end one before its time.
-	[ $killed -ge 3 ] || fail "only $killed of 4 were still running"
 	;;
 area_light)
 	scene "$lens" "$blur" "$area"
@@ -145,6 +165,12 @@ random)
 	sed 's/tilt_lens {/tilt_lens { seed 1/' scene.pov > seeded.pov
 	render "$ours" seed1.ppm seeded.pov $size
 	check "another seed of a pinhole" "$compare" differ 0.005 seed0.ppm seed1.ppm
+	# And nothing differs where nothing draws any.
+	scene 'tilt_lens { focal_distance 8 distortion -0.05 }' '' ''
+	render "$ours" still0.ppm scene.pov $size
+	sed 's/tilt_lens {/tilt_lens { seed 1/' scene.pov > seeded.pov
+	render "$ours" still1.ppm seeded.pov $size
+	check "another seed where nothing is random" "$compare" same still0.ppm still1.ppm
 	;;
 stock)
 	scene perspective "aperture 0.8 focal_point <0, 1.42, 4.5> blur_samples 37 variance 1/4000 confidence 0.9" "$area"

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
-"""png_pixels.py A B: whether two PNG files have the same pixels, kind and gamma, read without libpng: the joiner uses it."""
+"""png_pixels.py A B: whether two PNG files have the same pixels, kind and gamma, read without libpng: the joiner uses it.
+png_pixels.py --differ A B: whether they are of one kind and other pixels. Files alone always differ: POV-Ray writes the date into them."""
 import struct
 import sys
 import zlib
@@ -46,5 +47,15 @@ def compare(one, other):
 	print(f"{len(a)} rows of {kind_a[0]} pixels, {kind_a[2]} bits, the same")
 
 
+def differ(one, other):
+	(kind_a, a), (kind_b, b) = read(one), read(other)
+	assert kind_a == kind_b, f"{kind_a} and {kind_b}"
+	assert a != b, "the same pixels"
+	print(f"{sum(x != y for x, y in zip(a, b))} of {len(a)} rows differ")
+
+
 if __name__ == "__main__":
-	compare(sys.argv[1], sys.argv[2])
+	if sys.argv[1] == "--differ":
+		differ(sys.argv[2], sys.argv[3])
+	else:
+		compare(sys.argv[1], sys.argv[2])

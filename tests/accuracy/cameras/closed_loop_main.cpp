@@ -7,10 +7,12 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <stdexcept>
 
 namespace
 {
@@ -26,6 +28,7 @@ struct Options
 	double focal_length = 0, f_number = 0, stopped_to = 0, fill = 0;
 	bool table = false;
 	double hold = 0, most = HUGE_VAL, megapixels = 0;
+	int least = 1;
 	std::vector<double> within, rims;
 
 	std::string Command() const
@@ -151,18 +154,21 @@ try
 	app.add_option("--out", o.out, "Page with the results, Markdown");
 	app.add_option("--hold", o.hold, "Exit code 1 when fewer numbers are inside 2 sigma than a true share of so much leaves once in a thousand by chance")->check(CLI::Range(0.0, 1.0));
 	app.add_option("--most", o.most, "Exit code 1 when a number is further off, in sigmas");
+	app.add_option("--least", o.least, "Exit code 1 when fewer numbers than this are held against the truth")->capture_default_str();
 	app.add_option("--refused", o.refused, "A set that is expected to be refused, or not to be photographed: what its camera and light begin with ('45 mm at infinity', 'random 3, snr20'). Any other without an answer: exit code 1");
 	app.add_option("--within", o.within, "LEAST MOST: exit code 1 when the true share of all numbers inside 2 sigma, with 95 %, lies wholly outside of these")->expected(2)->check(CLI::Range(0.0, 1.0));
 	CLI11_PARSE(app, argc, argv);
 	std::vector<Result> results;
 	const bool nothing_asked = o.only.empty() && o.random == 0;
 	const auto quick = [&](const Camera& camera) { return o.megapixels > 0 ? Quick(camera, o.megapixels) : camera; };
+	// One copy: each call makes a table of its own.
+	const std::vector<Camera> table = AllCameras();
 	for (const std::string& name : o.only)
-		if (std::none_of(AllCameras().begin(), AllCameras().end(), [&](const Camera& camera) { return camera.name.rfind(name, 0) == 0; }))
+		if (std::none_of(table.begin(), table.end(), [&](const Camera& camera) { return camera.name.rfind(name, 0) == 0; }))
 			throw std::runtime_error("--only " + name + ": no camera's name begins so");
 	// Poses outside, so that what is done of a run that was stopped is of all cameras.
 	for (int k = 0; k < o.poses; ++k)
-		for (const Camera& camera : AllCameras())
+		for (const Camera& camera : table)
 			if (o.table || nothing_asked || std::any_of(o.only.begin(), o.only.end(), [&](const std::string& n) { return camera.name.rfind(n, 0) == 0; }))
 				Run(o, quick(camera), unsigned(k + 1), unsigned(k + 1), results);
 	for (int k = 0; k < o.random; ++k)
@@ -171,6 +177,8 @@ try
 		std::printf("%-16s inside 2 sigma %4d of %4d, %.1f to %.1f %%, rms %.2f, mean %+.2f\n", name.c_str(), t.inside, t.all, 100 * t.Where().low, 100 * t.Where().high, t.rms, t.mean);
 	const Coverage all = CoverageOfAll(results);
 	std::printf("%-16s inside 2 sigma %4d of %4d, %.1f %%, %.1f to %.1f %%, the worst %.1f sigma\n", "all", all.inside, all.all, 100 * all.Share(), 100 * all.Where().low, 100 * all.Where().high, all.worst);
+	if (all.all < o.least)
+		std::printf("%-16s at least %d numbers are wanted\n", "", o.least);
 	const int least = LeastInside(all.all, o.hold);
 	if (o.hold > 0)
 		std::printf("%-16s at least %d: of a true share of %g, fewer once in a thousand\n", "", least, o.hold);
@@ -180,7 +188,7 @@ try
 	const MadeUpRims rims = CountMadeUpRims(results);
 	std::printf("rims were given to %d of %d cameras that have none%s\n", rims.with, rims.sets, rims.AreTooMany() ? ": too many" : "");
 	const bool off = !o.within.empty() && all.Where().IsOutside(o.within[0], o.within[1]);
-	return all.all > 0 && all.inside >= least && all.worst <= o.most && !off && !rims.AreTooMany() && refusals.unexpected.empty() ? 0 : 1;
+	return all.all >= std::max(1, o.least) && all.inside >= least && all.worst <= o.most && !off && !rims.AreTooMany() && refusals.unexpected.empty() ? 0 : 1;
 }
 catch (const std::exception& e)
 {

@@ -3,7 +3,7 @@
 // Whether denoise makes any block of a picture worse: pictures of several seeds, raw and denoised, against one of many samples.
 //
 //   no_harm scene SCENE --povray POVRAY --work DIR [--option OPTION]...     one scene
-//   no_harm together --povray OURS --work DIR                                  what those that ran into DIR say in all
+//   no_harm together SCENE... --povray POVRAY --work DIR                   what these, which ran into DIR/SCENE, say in all
 //
 // SCENE: a .pov file that includes race_camera.inc, or one with a tilt_lens of its own, whose words `denoise`, `seed`, blur_samples and
 // variance are replaced. Fails when more blocks are worse, significantly in the mean of all seeds, than chance allows (block_harm.h): by more than
@@ -132,30 +132,27 @@ bool RunScene(const std::string& povray, const fs::path& scene, const fs::path& 
 	return good;
 }
 
-/// Results that are older than the program are another program's.
-bool RunTogether(const fs::path& work, const fs::path& povray)
+/// Of the scenes named alone: a folder may hold others', of an older list or a longer run. Results that are older than the program are another program's.
+bool RunTogether(const std::vector<std::string>& scenes, const fs::path& work, const fs::path& povray)
 {
 	BlockHarm sums[std::size(Settings)], all;
-	int scenes = 0;
-	for (const auto& entry : fs::directory_iterator(work))
+	for (const std::string& scene : scenes)
 	{
-		std::ifstream in(entry.path() / "harm.txt");
-		if (!in || fs::last_write_time(entry.path() / "harm.txt") < fs::last_write_time(povray))
-			continue;
-		++scenes;
+		const fs::path file = work / scene / "harm.txt";
+		std::ifstream in(file);
+		if (!in || fs::last_write_time(file) < fs::last_write_time(povray))
+			throw std::runtime_error(fmt::format("scene {} has not run into {}{}", scene, work.string(), in ? " since POV-Ray was built" : ""));
 		for (BlockHarm& sum : sums)
 		{
 			BlockHarm h;
 			in >> h.blocks >> h.judged >> h.once >> h.tenth >> h.any >> h.raw >> h.made >> h.worst >> h.worst_x >> h.worst_y;
 			if (!in)
-				throw std::runtime_error((entry.path() / "harm.txt").string() + ": cut");
+				throw std::runtime_error(file.string() + ": cut");
 			sum.Add(h);
 			all.Add(h);
 		}
 	}
-	if (scenes == 0)
-		throw std::runtime_error("no scene ran into " + work.string());
-	fmt::print("{} scenes\n", scenes);
+	fmt::print("{} scenes\n", scenes.size());
 	bool good = true;
 	for (std::size_t i = 0; i < std::size(Settings); ++i)
 		good &= Judge("blur_samples " + Settings[i].Text(), sums[i]);
@@ -169,13 +166,14 @@ try
 {
 	std::string povray;
 	fs::path scene, work;
-	std::vector<std::string> options;
+	std::vector<std::string> options, scenes;
 	CLI::App app{"Whether denoise makes any block of a picture worse"};
 	CLI::App* one = app.add_subcommand("scene");
 	CLI::App* all = app.add_subcommand("together");
 	app.require_subcommand(1);
 	one->add_option("SCENE", scene)->required();
 	one->add_option("--option", options, "for POV-Ray")->allow_extra_args(false);
+	all->add_option("SCENES", scenes)->required();
 	for (CLI::App* command : {one, all})
 	{
 		command->add_option("--povray", povray)->required();
@@ -183,7 +181,7 @@ try
 	}
 	CLI11_PARSE(app, argc, argv);
 	work = fs::absolute(work);
-	return (*one ? RunScene(povray, fs::absolute(scene), work, options) : RunTogether(work, povray)) ? 0 : 1;
+	return (*one ? RunScene(povray, fs::absolute(scene), work, options) : RunTogether(scenes, work, povray)) ? 0 : 1;
 }
 catch (const std::exception& error)
 {
