@@ -117,7 +117,26 @@ ini)
 	printf 'Input_File_Name=s.pov\nWidth=40\nHeight=30\nOutput_File_Name=picture.png\nLibrary_Path="a folder"\n' > s.ini
 	"$bin/povray" s.ini +Oone.png -D +WT1 > one.log 2>&1 || fail "one: $(tail -3 one.log)"
 	expect 0 s.ini --parts 2 --local 2 --pilot-time 0.2s; pixels one.png picture.png "ini"
-	grep -q 'a folder/colour.inc' picture.strips/*/submission.json || fail "the included file is not among the scene's" ;;
+	grep -q 'a folder/colour.inc' picture.strips/*/submission.json || fail "the included file is not among the scene's"
+	# What stands after an ini file wins over it, what stands before it does not: in every command (light, pilot, parts, plan).
+	scene t.pov "$blur"
+	printf 'Declare=Colour=0.1\n+W40 +H30\n' > t.ini
+	printf '#!/bin/sh\necho "$*" >> %s/calls\nexec %s "$@"\n' "$work" "$bin/povray" > pov; chmod +x pov
+	order() { # NAME WORDS
+		name=$1 said=$2
+		shift 2
+		: > calls; expect 0 "$@" --parts 2 --local 2 --pilot-time 0.2s --povray ./pov +O$name.png; prints "equal cost by the pilot"; prints "$said"
+		expect 0 "$@" --pilot-time 0.2s --povray ./pov --plan +O$name.png
+		"$bin/povray" $(printf '%s\n' "$@" | sed 's/^t.pov$/+I&/') -D +WT1 +Oone.png > one.log 2>&1 || fail "one: $(tail -3 one.log)"
+		pixels one.png $name.png "$*"
+	}
+	order after "16 x 30" t.pov t.ini Declare=Colour=0.9 +W16
+	grep -v '^+Inone \|^+It.pov t.ini Declare=Colour=0.9 +W16 ' calls > out && fail "another order"
+	order before "40 x 30" +W16 Declare=Colour=0.9 t.ini t.pov
+	grep -v '^+Inone \|^+W16 Declare=Colour=0.9 t.ini t.pov ' calls > out && fail "another order"
+	: > calls; expect 1 +W16 Declare=Colour=0.9 t.ini t.pov --light --local 1 --povray ./pov; says "saved neither photons"
+	grep -v '^+Inone \|^\(+L[^ ]* \)*+W16 Declare=Colour=0.9 [^ ]*t.ini [^ ]*t.pov ' calls > out && fail "another order of the light"
+	order between "40 x 12" +W16 t.pov t.ini +H12 ;;
 words)
 	# Words are what POV-Ray makes of them: sections and switches in ini files, its names of frames, one frame and one pixel looked at.
 	scene s.pov perspective '#debug concat("frame ", str(frame_number, 0, 0), "\n")'

@@ -48,8 +48,8 @@ def _render(sub, rows, unit, here):
 		if sub["cpus"]:
 			more.append(f"+WT{sub['cpus']}")
 		cpu = _children_cpu()
-		place_, scene, options = place(sub)
-		code = run(command(sub["povray"], scene, options, more), log, cwd=place_)
+		place_, words = place(sub)
+		code = run(command(sub["povray"], words, more), log, cwd=place_)
 		cpu = _children_cpu() - cpu
 		with open(log, encoding="utf-8", errors="replace") as file:
 			said = file.read()

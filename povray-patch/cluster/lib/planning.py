@@ -54,7 +54,7 @@ def measure(sub, script):
 			size = [f"+W{max(2, sub['width'] // share)}", f"+H{max(2, sub['height'] // share)}"]
 			picture = f"{folder}/{share}{sub['suffix']}"
 			more = size + ["+GA", "+WT1", "+SC2", "+EC2", "+SR2", "+ER2", "+O" + quoted(picture)]
-			found[share] = _cpu_of(command(sub["povray"], sub["scene"], sub["options"], more), log)
+			found[share] = _cpu_of(command(sub["povray"], sub["words"], more), log)
 		join = _cpu_of([sub["picture_rows"], "cut", "1", str(sub["height"]), f"{folder}/1{sub['suffix']}", f"{folder}/joined{sub['suffix']}"], log)
 		python = _cpu_of([sys.executable, script, "--version"], log)
 	finally:

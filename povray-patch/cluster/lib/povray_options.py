@@ -11,8 +11,12 @@ FORBIDDEN = re.compile(r"[+-](S[RCF]|E[RCF]|C$|GI)|(Start|End)_(Row|Column)=|Sub
 DECIDED = ("start_row", "end_row", "start_column", "end_column", "subset_start_frame", "subset_end_frame")
 
 
+def is_switch(word):
+	return bool(re.match(r"\+.|-[^-]|[A-Za-z_]+=", word)) and word != "-h"
+
+
 def is_ini(word):
-	return without_section(word).lower().endswith(".ini")
+	return not is_switch(word) and without_section(word).lower().endswith(".ini")
 
 
 def without_section(word):
@@ -24,8 +28,12 @@ def quoted(path):
 	return f'"{path}"' if re.search(r"\s", path) else path
 
 
-def scene_word(scene):
-	return quoted(scene) if is_ini(scene) else "+I" + quoted(scene)
+def povray_words(words):
+	"""The user's words as POV-Ray takes them, in their order: which options an ini file overrides depends on where it stands. The first
+	file is the scene."""
+	files = [k for k, word in enumerate(words) if not is_switch(word)]
+	scene = files[0] if files and not is_ini(words[files[0]]) else None
+	return [word if is_switch(word) else ("+I" if k == scene else "") + quoted(word) for k, word in enumerate(words)]
 
 
 def error_lines(log):
@@ -44,13 +52,13 @@ def output_of(words, env=None):
 	return done.stdout.decode(errors="replace").replace("\r", "\n")
 
 
-def resolve(povray, scene, options, folder):
+def resolve(povray, words, folder):
 	"""Values by keyword in small letters, as POV-Ray's ini files have them; of library_path, all that the user names, in order."""
-	for word in options:
+	for word in words:
 		if FORBIDDEN.match(word):
 			raise usage(f"'{word}' is decided here: leave it out")
-	values = _written(povray, scene_word(scene), options, folder)
-	own = _written(povray, "+Inone", [], folder)["library_path"]
+	values = _written(povray, words, folder)
+	own = _written(povray, ["+Inone"], folder)["library_path"]
 	values["library_path"] = [path for path in values["library_path"] if path not in own]
 	for key in DECIDED:
 		if key in values:
@@ -60,10 +68,10 @@ def resolve(povray, scene, options, folder):
 	return values
 
 
-def _written(povray, scene, options, folder):
+def _written(povray, words, folder):
 	"""What POV-Ray writes by Create_Ini. Then it ends, before it opens the scene: an include header is missing."""
 	path = f"{folder}/options.ini"
-	log = output_of([povray, scene, *options, "-D", "-P", f"+GI{quoted(path)}", f"+HI{quoted(folder + '/none')}"])
+	log = output_of([povray, *povray_words(words), "-D", "-P", f"+GI{quoted(path)}", f"+HI{quoted(folder + '/none')}"])
 	values = {"library_path": []}
 	try:
 		with open(path, encoding="utf-8", errors="replace") as file:

@@ -12,7 +12,6 @@ from light import make_light
 from part import render_task
 from planning import plan
 from pilot import make_cut, task_count
-from povray_options import is_ini, quoted
 from scene import files_of, frame_name, inspect
 from strips_options import HELP, parse
 from submission import create, load, load_cut, missing_units, stamp
@@ -47,17 +46,17 @@ def _describe(values, script):
 	beside = os.path.dirname(script)
 	povray = values.get("--povray", os.path.join(beside, "povray"))
 	povray = os.path.abspath(povray) if "/" in povray else povray
-	scene, options = values["own"][0], [quoted(word) if is_ini(word) else word for word in values["own"][1:]] + values["povray"]
-	found = inspect(povray, scene, options + (["Declare=Strips_Light=0"] if "--light" in values else []), os.getcwd(), "--scene-may-write" in values)
+	scene, words = values["own"][0], values["all"]
+	found = inspect(povray, scene, words + (["Declare=Strips_Light=0"] if "--light" in values else []), os.getcwd(), "--scene-may-write" in values)
 	output = os.path.abspath(found["output"])
 	frames = found["frames"]
 	targets = [frame_name(output, frame, found["digits"]) for frame in frames or [None]]
-	return {"cwd": os.getcwd(), "scene": scene, "options": options, "povray": povray, "tiltcost": os.path.join(beside, "tiltcost"),
+	return {"cwd": os.getcwd(), "scene": scene, "words": words, "povray": povray, "tiltcost": os.path.join(beside, "tiltcost"),
 		"picture_rows": os.path.join(beside, "..", "lib", "tilt-lens", "picture_rows"), "parts": values.get("--parts", len(frames) if frames else 40),
 		"frames": frames, "digits": found["digits"], "width": found["width"], "height": found["height"], "suffix": found["suffix"],
 		"cpus": values.get("--cpus", 1), "at_once": values.get("--nodes", 0), "sbatch": values["--sbatch"], "light": "--light" in values,
 		"pilot_time": values.get("--pilot-time", "10s"), "pilot_blocks": values.get("--pilot-blocks", 400), "setting": values.get("--setting", ""),
-		"equal_rows": "--equal-rows" in values, "may_write": "--scene-may-write" in values, "files": files_of(scene, options, found, targets),
+		"equal_rows": "--equal-rows" in values, "may_write": "--scene-may-write" in values, "files": files_of(scene, words, found, targets),
 		"input": found["input"], "libraries": [os.path.abspath(path) for path in found["libraries"]],
 		"before": {target: stamp(target) for target in targets if stamp(target)}, "output": output}
 
