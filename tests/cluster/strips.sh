@@ -156,6 +156,28 @@ words)
 	for frame in f08 f09 g5; do pixels one/$frame.png two/$frame.png "$frame"; done
 	one one.png s.pov +W1 +H9; expect 0 s.pov +W1 +H9 --parts 2 --local 1 --equal-rows; pixels one.png s.png "one pixel wide"
 	expect 0 s.pov +W9 +H1 $dry; prints "9 x 1 in 1 parts" ;;
+names)
+	# Folders and words of Latin-1 (\351): in records, logs, messages, commands. Python prints as strictly as where LANG=en_US.UTF-8;
+	# for grep and sed letters are bytes.
+	export LC_ALL=C PYTHONIOENCODING=utf-8:strict
+	there=$(printf 'd\351 x'); mkdir "$there"; cd "$there"
+	scene s.pov "$blur"; one one.png s.pov +W32 +H24
+	expect 0 s.pov +W32 +H24 --pilot-time 0.2s --parts 3 --local 2; prints "$there/s.png: joined from 3 parts"; prints "equal cost"; dir=$(folder)
+	pixels one.png s.png "no UTF-8"
+	rm "$dir"/parts/00001.*; expect 1 --join "$dir"; says "$there/s.strips"
+	alone=$(sed -n 's/^ *\(.*povray-strips --part [^(]*[^( ]\) *(.*/\1/p' err); sh -c "$alone" > out 2> err || fail "its command: $alone"
+	expect 0 --join "$dir"; expect 0 --status "$dir"; prints "joined$"
+	expect 0 s.pov +W32 +H24 --pilot-time 0.2s --plan; prints "$there/s.plan.json"
+	light='#ifndef (Strips_Light) #declare Strips_Light = 0; #end'
+	scene l.pov "$blur" "$light global_settings { photons { count 300 #if (Strips_Light = 1) save_file \"strips.ph\" #end #if (Strips_Light = 2) load_file \"strips.ph\" #end } } sphere { 1.4*x, 0.5 pigment { rgbt 1 } interior { ior 1.5 } photons { target refraction on } }"
+	expect 0 l.pov +W32 +H24 --pilot-time 0.2s --parts 2 --local 1 --light; [ -s l.png ] || fail "no picture"
+	# POV-Ray opens no such name itself; it and others are said as they are.
+	cp s.pov "$there.pov"; expect 1 "$there.pov" --local 1; says "POV-Ray does not render $there.pov"
+	expect 3 "$there/none.pov" --local 1; says "$there/none.pov: no such file"
+	expect 2 --frob"$there"; says "no option --frob$there"
+	expect 3 --join "$there"; says "$there: no submission"
+	# A file that the scene names by such a name is among those that are watched.
+	echo 1 > "$there.txt"; echo "// \"$there.txt\"" >> s.pov; expect 0 s.pov +W32 +H24 --parts 2 --dry-run; prints "2 files of the scene" ;;
 film)
 	# Frames as tasks, then frames in strips; clocks and names are POV-Ray's.
 	scene s.pov "$blur"

@@ -10,7 +10,7 @@ import slurm
 from batch_line import enter, is_done, run_line
 from batch_options import HELP, folder_for, parse, read_list
 from batch_summary import write_summary
-from common import DONE, REFUSED, Failure, file_error, program, read_json, usage, write_json
+from common import DONE, NAMES, REFUSED, Failure, file_error, program, read_json, usage, write_json
 
 
 def main(words, script):
@@ -63,7 +63,7 @@ def _summary(folder, script):
 
 def _version(tiltcal):
 	try:
-		return subprocess.run([tiltcal, "--version"], stdin=subprocess.DEVNULL, capture_output=True, text=True, check=True).stdout.strip()
+		return subprocess.run([tiltcal, "--version"], stdin=subprocess.DEVNULL, capture_output=True, **NAMES, check=True).stdout.strip()
 	except OSError as error:
 		raise Failure(3, f"{tiltcal}: cannot be run ({error.strerror}); give the tiltcal with --tiltcal") from None
 	except subprocess.CalledProcessError:

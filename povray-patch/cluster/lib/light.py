@@ -3,7 +3,7 @@
 import os
 import re
 
-from common import refused, run
+from common import read_text, refused, run
 from povray_options import error_lines, is_switch, one_pixel, quoted
 from scene import command
 
@@ -50,8 +50,7 @@ def _text(sub):
 	text = ""
 	for path in sub["files"]:
 		if re.search(r"\.(pov|inc|mac)$", path, re.I):
-			with open(path, encoding="utf-8", errors="replace") as file:
-				text += file.read()
+			text += read_text(path)
 	return text
 
 
@@ -92,9 +91,7 @@ def _run(sub, more, log, env, enough=None):
 	began = os.path.getsize(log) if os.path.exists(log) else 0
 
 	def said():
-		with open(log, encoding="utf-8", errors="replace") as file:
-			file.seek(began)
-			return file.read()
+		return read_text(log, began)
 	code = run(command(sub["povray"], words, more), log, env, folder, (lambda: enough(said())) if enough else None)
 	if code != 0 and not (enough and enough(said()) and "Frontend halted render" in said()):
 		raise refused(f"the light is not rendered:\n{error_lines(said())}")

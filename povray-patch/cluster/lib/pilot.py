@@ -3,7 +3,7 @@
 import os
 import subprocess
 
-from common import read_json, refused, write_json
+from common import NAMES, read_json, refused, write_json
 from cutting import FIRST_STRIP, cost_of, cut, equal_rows, frame_groups
 from light import light_words, place
 from submission import load_cut
@@ -64,7 +64,7 @@ def row_costs(sub):
 	if sub["may_write"]:
 		command.append("--scene-may-write")
 	try:
-		done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False,
+		done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, **NAMES, check=False,
 			cwd=folder)
 	except OSError as error:
 		return {}, f"equal rows, because {sub['tiltcost']} cannot be run ({error.strerror})"

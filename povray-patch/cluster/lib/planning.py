@@ -7,7 +7,7 @@ import shutil
 import sys
 import tempfile
 
-from common import duration, refused, run, usage, write_json
+from common import duration, read_text, refused, run, usage, write_json
 from cutting import longest
 from pilot import row_costs
 from plan_plot import plot
@@ -37,8 +37,7 @@ def _cpu_of(words, log, cwd=None):
 	code = run(words, log, cwd=cwd)
 	after = resource.getrusage(resource.RUSAGE_CHILDREN)
 	if code != 0:
-		with open(log, encoding="utf-8", errors="replace") as file:
-			raise refused(f"{words[0]} failed:\n{error_lines(file.read())}")
+		raise refused(f"{words[0]} failed:\n{error_lines(read_text(log))}")
 	return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 

@@ -4,7 +4,7 @@ import os
 import re
 import subprocess
 
-from common import Failure, refused, usage
+from common import NAMES, Failure, read_text, refused, usage
 
 # Which part is rendered, which povray-strips says itself: words, and the keywords that they and ini files come down to.
 FORBIDDEN = re.compile(r"[+-](S[RCF]|E[RCF]|C$|GI)|(Start|End)_(Row|Column)=|Subset_(Start|End)_Frame=|Continue_Trace=|Create_Ini=", re.I)
@@ -49,7 +49,7 @@ def output_of(words, env=None):
 		done = subprocess.run(words, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=env, check=False)
 	except OSError as error:
 		raise Failure(3, f"{words[0]}: cannot be run ({error.strerror}); give the POV-Ray with --povray") from None
-	return done.stdout.decode(errors="replace").replace("\r", "\n")
+	return done.stdout.decode(**NAMES).replace("\r", "\n")
 
 
 def resolve(povray, words, folder):
@@ -74,14 +74,13 @@ def _written(povray, words, folder):
 	log = output_of([povray, *povray_words(words), "-D", "-P", f"+GI{quoted(path)}", f"+HI{quoted(folder + '/none')}"])
 	values = {"library_path": []}
 	try:
-		with open(path, encoding="utf-8", errors="replace") as file:
-			for line in file:
-				key, _, value = line.rstrip("\n").partition("=")
-				value = value[1:-1] if value.startswith('"') else value
-				if key == "Library_Path":
-					values["library_path"].append(value)
-				else:
-					values[key.lower()] = value
+		for line in read_text(path).split("\n"):
+			key, _, value = line.partition("=")
+			value = value[1:-1] if value.startswith('"') else value
+			if key == "Library_Path":
+				values["library_path"].append(value)
+			else:
+				values[key.lower()] = value
 		os.unlink(path)
 	except FileNotFoundError:
 		raise refused(f"POV-Ray does not take these options; nothing was submitted:\n{error_lines(log)}") from None

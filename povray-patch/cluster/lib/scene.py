@@ -4,7 +4,7 @@ import os
 import re
 import tempfile
 
-from common import Failure, digest, file_error, refused
+from common import Failure, digest, file_error, read_text, refused
 from povray_options import error_lines, frames_of, is_ini, one_pixel, output_of, povray_words, quoted, resolve, without_section
 
 SUFFIX = {"PNG": ".png", "EXR": ".exr"}
@@ -79,8 +79,7 @@ def files_of(scene, words, found, targets):
 				except OSError as error:
 					raise file_error(path, error) from None
 				if re.search(r"\.(pov|inc|ini|mac)$", path, re.I):
-					with open(path, encoding="utf-8", errors="replace") as file:
-						text = file.read()
+					text = read_text(path)
 					waiting += re.findall(r'"([^"\n]{1,250})"', text)
 					written |= {os.path.abspath(name) for name in written_by(text)}
 			break

@@ -6,7 +6,7 @@ import sys
 
 import local
 import slurm
-from common import DONE, program, refused, usage
+from common import DONE, program, read_text, refused, usage
 from join import command, join, status_text
 from light import make_light
 from part import render_task
@@ -101,8 +101,7 @@ def _run_here(sub, tasks, at_once, script):
 	python = [sys.executable, script]
 	log = f"{sub['folder']}/log"
 	if load_cut(sub) is None and local.run_all([("pilot", python + ["--cut", sub["folder"]])], 1, log):
-		with open(f"{log}/pilot.txt", encoding="utf-8") as file:
-			raise refused(f"the pilot failed:\n{file.read().strip()}")
+		raise refused("the pilot failed:\n" + read_text(f"{log}/pilot.txt").strip())
 	tasks = [task for task in tasks if task < len(load_cut(sub)["tasks"])]
 	local.run_all([(f"part-{task}", python + ["--part", str(task), sub["folder"]]) for task in tasks], at_once, log)
 	join(sub, script)
