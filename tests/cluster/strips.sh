@@ -248,7 +248,24 @@ older)
 	rm "$b/parts/00000.png"; expect 1 --join "$b"; says "2 of 3 parts are missing"
 	echo "// another" >> s.pov
 	expect 1 --resume "$b" --local 1; grep -q "it changed since the submission" "$b"/log/part-0.txt || fail "another scene is rendered into the set"
-	cmp -s a.png precious.png || fail "the picture changed" ;;
+	cmp -s a.png precious.png || fail "the picture changed"
+	# A picture that was moved away is made again, each time.
+	expect 0 s.pov +W24 +H18 --parts 2 --local 1 --equal-rows +Om.png; dir=$(folder)
+	for time in 1 2; do
+		mv m.png moved.png; expect 0 --status "$dir"; prints "all 2 parts are there, not joined:"; prints "povray-strips --join "
+		expect 0 --join "$dir"; cmp -s m.png moved.png || fail "not made again"
+	done
+	expect 0 --status "$dir"; prints "parts are there, joined$"
+	# A film whose last frame is not ours, or is a folder: no frame is replaced, nothing is left.
+	expect 0 s.pov +W16 +H12 +KFI1 +KFF3 --local 2 +Of.png; dir=$(folder); numbers=$(ls -i f[12].png)
+	mv f3.png f3; echo another > f3.png; expect 1 --join "$dir"; says "f3.png: it was written since"
+	rm f3.png; mkdir f3.png; expect 1 --join "$dir"; says "f3.png: it is a folder"
+	[ "$(ls -i f[12].png)" = "$numbers" ] || fail "half a film is replaced"; [ -z "$(find "$dir" -maxdepth 1 -name '*.png')" ] || fail "left: $(ls "$dir")"
+	rmdir f3.png; expect 0 --join "$dir"; cmp -s f3.png f3 || fail "not made again"
+	# Ended in the middle of moving (the second move kills): both what is there and what comes is known as ours.
+	printf 'import os, signal\nreal, count = os.replace, []\ndef replace(a, b):\n\tif str(b).endswith("f2.png"): os.kill(os.getpid(), signal.SIGKILL)\n\treal(a, b)\nos.replace = replace\n' > sitecustomize.py
+	PYTHONPATH=$work expect 137 --join "$dir"; expect 0 --status "$dir"; prints "not joined"
+	expect 0 --join "$dir"; expect 0 --status "$dir"; prints "parts are there, joined$" ;;
 disk)
 	# A full disk (a limit of 4 blocks stands for it: the picture is larger, the records are not), a folder that is read-only.
 	scene s.pov "$blur"
