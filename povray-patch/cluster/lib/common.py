@@ -110,14 +110,38 @@ class Interrupted(Exception):
 		self.code = 128 + number
 
 
+SIGNALS = (signal.SIGTERM, signal.SIGINT, signal.SIGHUP)
+
+
+def _raise_it(number, _frame=None):
+	for other in SIGNALS:
+		signal.signal(other, signal.SIG_IGN)
+	raise Interrupted(number)
+
+
 def catch_signals():
 	"""scancel, a time limit, Ctrl-C: as an exception, so that temporary files and children go."""
-	def raise_it(number, _frame):
-		for other in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
-			signal.signal(other, signal.SIG_IGN)
-		raise Interrupted(number)
-	for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
-		signal.signal(number, raise_it)
+	for number in SIGNALS:
+		signal.signal(number, _raise_it)
+
+
+@contextlib.contextmanager
+def signals_wait(text):
+	"""Until the end of the block, where the first is raised; `text` says what is waited for."""
+	came = []
+
+	def note(number, _frame):
+		if not came:
+			print(text, file=sys.stderr, flush=True)
+		came.append(number)
+	before = {number: signal.signal(number, note) for number in SIGNALS}
+	try:
+		yield
+	finally:
+		for number, handler in before.items():
+			signal.signal(number, handler)
+	if came:
+		_raise_it(came[0])
 
 
 def run(command, log=None, env=None, cwd=None, enough=None):
@@ -150,6 +174,9 @@ def run(command, log=None, env=None, cwd=None, enough=None):
 
 def program(name, help_text, words, main):
 	"""Exit code of `main()`, or of --help and --version; its refusals as one message."""
+	codecs.register_error("name-or-escape", _name_or_escape)
+	for stream in (sys.stdout, sys.stderr):
+		stream.reconfigure(errors="name-or-escape")
 	if "-h" in words or "--help" in words:
 		print(help_text, end="")
 		return DONE
@@ -165,6 +192,3 @@ def program(name, help_text, words, main):
 	except OSError as error:
 		print(f"{name}: {file_error(error.filename or '', error)}", file=sys.stderr)
 		return FILE
-	codecs.register_error("name-or-escape", _name_or_escape)
-	for stream in (sys.stdout, sys.stderr):
-		stream.reconfigure(errors="name-or-escape")

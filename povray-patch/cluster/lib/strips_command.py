@@ -115,16 +115,14 @@ def _run_there(sub, tasks, script):
 	options = sub["sbatch"]
 	threads = [f"--cpus-per-task={sub['cpus']}"]
 	pilot = None
-	with slurm.all_or_none(folder) as jobs:
+	with slurm.all_or_none() as jobs:
 		if load_cut(sub) is None:
-			pilot = slurm.sbatch(f"{name}-pilot", folder, "pilot.txt", words + ["--cut", shlex.quote(folder)], threads + options)
-			jobs.append(pilot)
+			pilot = slurm.sbatch(jobs, f"{name}-pilot", folder, "pilot.txt", words + ["--cut", shlex.quote(folder)], threads + options)
 		array = None
 		if tasks:
-			array = slurm.sbatch(f"{name}-parts", folder, "part-%a.txt", words + ["--part", '"$SLURM_ARRAY_TASK_ID"', shlex.quote(folder)],
+			array = slurm.sbatch(jobs, f"{name}-parts", folder, "part-%a.txt", words + ["--part", '"$SLURM_ARRAY_TASK_ID"', shlex.quote(folder)],
 				threads + options, array=tasks, at_once=sub["at_once"], after=pilot)
-			jobs.append(array)
-		jobs.append(slurm.sbatch(f"{name}-join", folder, "join.txt", words + ["--join", shlex.quote(folder)], options, after_any=array))
+		slurm.sbatch(jobs, f"{name}-join", folder, "join.txt", words + ["--join", shlex.quote(folder)], options, after_any=array)
 	ids = ",".join(jobs)
 	print(f"Jobs: {'pilot ' + pilot + ', ' if pilot else ''}{'parts ' + array + ', ' if array else ''}join {jobs[-1]}")
 	print(f"Watch:  squeue --jobs={ids}; {command(script, '--status', sub)}")
