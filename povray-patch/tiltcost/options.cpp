@@ -36,14 +36,21 @@ bool IsForPovray(const std::string& word)
 	return letters > 0 && letters < word.size() && word[letters] == '=';
 }
 
-/// Splits the command line, the order within each part kept.
+/// Splits the command line, the order within each part kept. Scene and ini files are in both: which of POV-Ray's options an ini file
+/// overrides depends on where it stands among them.
 void Split(int argc, char** argv, std::vector<std::string>& own, std::vector<std::string>& povray)
 {
+	bool first = true;
 	for (int i = 1; i < argc; ++i)
 	{
 		const std::string word = argv[i];
 		const bool option = word.compare(0, 2, "--") == 0;
 		(IsForPovray(word) ? povray : own).push_back(word);
+		if (!IsForPovray(word) && word[0] != '-')
+		{
+			povray.push_back(FileWord(word, first));
+			first = false;
+		}
 		// An option's value is the option's, whatever it looks like.
 		if (option && word.find('=') == std::string::npos && word != "--help" && word != "--version" && word != "--scene-may-write" && i + 1 < argc)
 			own.emplace_back(argv[++i]);
@@ -165,7 +172,6 @@ Options ParseCommandLine(CLI::App& app, int argc, char** argv)
 	app.parse(std::vector<std::string>(own.rbegin(), own.rend()));
 	options.job.scene = files[0];
 	options.job.rows = !options.rows.empty();
-	options.job.options.insert(options.job.options.begin(), files.begin() + 1, files.end());
 	if (by_time->count())
 		options.time = Positive("--time", time, ParseDuration, "a time such as 60s, 5m or 2h");
 	if (by_error->count())

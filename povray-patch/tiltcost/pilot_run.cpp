@@ -191,10 +191,14 @@ std::vector<int> PilotedFrames(const FrameRange& range, int count)
 	return frames;
 }
 
+std::string FileWord(const std::string& file, bool first)
+{
+	return (first && !IsIniFile(file) ? "+I" : "") + Quoted(file);
+}
+
 std::vector<std::string> PilotCommand(const Job& job, const tiltcal::TemporaryFolder& folder, std::optional<int> frame)
 {
 	std::vector<std::string> command = {job.povray};
-	command.push_back(IsIniFile(job.scene) ? Quoted(job.scene) : "+I" + Quoted(job.scene));
 	command.insert(command.end(), job.options.begin(), job.options.end());
 	for (const char* option : {"-D", "-P", "-C", "-A", "+SP1", "+EP1", "+V", "+GA", "-RFO"})
 		command.emplace_back(option);

@@ -22,8 +22,8 @@ namespace tiltcost
 struct Job
 {
 	std::string povray;                 ///< the patched program
-	std::string scene;                  ///< .pov or .ini, as POV-Ray is to see it
-	std::vector<std::string> options;   ///< POV-Ray's own
+	std::string scene;                  ///< .pov or .ini, as the user names it
+	std::vector<std::string> options;   ///< POV-Ray's words, the scene's among them, in the user's order
 	double pilot_seconds = 10;          ///< wall time for which both pilots together may begin blocks
 	int most_blocks = 120;
 	bool rows = false;                  ///< only where the time goes is asked: many blocks of few samples
@@ -71,6 +71,9 @@ struct RenderLog
 
 /// Whether POV-Ray is to be given `scene` as an ini file, FILE.ini or FILE.ini[SECTION], not as a scene.
 bool IsIniFile(const std::string& scene);
+
+/// A file of the command line as POV-Ray takes it; the first is the scene.
+std::string FileWord(const std::string& file, bool first);
 
 /// The user's options, and after them those that keep the user's picture and screen as they are. `frame`: of an
 /// animation, else none.

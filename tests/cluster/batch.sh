@@ -38,6 +38,17 @@ usage)
 	squeue() { printf '#!/bin/sh\necho "slurm_load_jobs error: %s" >&2\nexit 1\n' "$1" > path/squeue; chmod +x path/squeue; }
 	squeue "Invalid job id specified"; here_only; prints "0 of 1 cameras are done"
 	squeue "Unable to contact slurm controller (connect failure)"; here_only; says "squeue does not say whether job 7 .*Unable to contact" ;;
+names)
+	# Folders and photographs of Latin-1 (\351), as in strips.sh.
+	export LC_ALL=C PYTHONIOENCODING=utf-8:strict
+	there=$(printf 'd\351 x'); mkdir "$there"; cd "$there"
+	cp "$photos"/untilted-1.jpg "$there-1.jpg"; cp "$photos"/untilted-3.jpg "$there-3.jpg"; cp "$photos"/plus5-[135].jpg .
+	echo "plus --untilted '$there-*.jpg' --tilted plus5='plus5-*.jpg'" > list.txt; echo "absent --untilted '$there/*.jpg' --tilted plus5='plus5-*.jpg'" >> list.txt
+	expect 1 list.txt --options "$common" --local 2; prints "1 of 2 cameras are done"; prints "^absent failed: .*$there"; prints "$there/list/summary.html"
+	alone=$(sed -n 's/^  alone: //p' list/summary.txt); (cd / && sh -c "$alone") > out 2> err && fail "it fails, its command does not"
+	prints "^absent failed"; grep -q "$there" list/summary.csv || fail "no name"
+	expect 1 list.txt --options "$common" --local 2; prints "2 cameras, 1 to calibrate"
+	cp "$photos"/untilted-5.jpg "$there-3.jpg"; expect 0 list.txt --options "$common" --dry-run; prints "2 cameras, 2 to calibrate" ;;
 real)
 	# Two cameras, and one whose photographs are not there: one table, the third named with the command that calibrates it alone.
 	write_list > list.txt

@@ -89,6 +89,48 @@ cancel)
 	[ "$(parts "$dir")" = 0 ] || fail "parts of a second each"
 	await "empty TMPDIR" sh -c "[ -z \"\$(ls '$work/tmp')\" ]"
 	expect 0 --status "$dir"; prints "0 of 6 parts are there" ;;
+submit)
+	# A signal while jobs are submitted, between Slurm's taking the first, second or third and sbatch's saying so: all are cancelled.
+	scene s.pov "$blur"
+	mkdir path; real=$(command -v sbatch)
+	printf '#!/bin/sh\necho >> %s/count\nid=$(%s "$@")\n[ $(grep -c "" %s/count) != $at ] || kill -$signal $PPID\necho "$id"\n' "$work" "$real" "$work" > path/sbatch
+	chmod +x path/sbatch
+	PATH=$work/path:$PATH
+	export at signal
+	submit() { # AT SIGNAL CODE ARGUMENT...
+		at=$1 signal=$2 code=$3
+		shift 3
+		rm -f count; expect $code "$@"
+	}
+	size="+W32 +H24 --parts 2 --equal-rows"
+	for at_signal in "1 TERM 143" "2 INT 130" "3 HUP 129"; do
+		submit $at_signal s.pov $size --sbatch --hold; dir=$(folder); says "waiting for sbatch's answer"
+		says "^cancelled what was submitted: [0-9 ]*$"; [ "$(grep -c '[0-9]' "$dir/jobs.json")" = "$at" ] || fail "not all are recorded: $(cat "$dir/jobs.json")"
+		await "end of all" sh -c "[ -z \"\$(squeue --noheader)\" ]"
+		[ "$(ls "$dir/parts" "$dir/log" | grep -c txt)" = 0 ] || fail "something ran"
+	done
+	# Killed outright: what was submitted is recorded, and named.
+	rm -r s.strips; submit 2 KILL 137 s.pov $size --sbatch --hold; dir=$(echo s.strips/*)
+	expect 1 --resume "$dir"; says "still wait or run; cancel them first: scancel $(last_job "$dir")$"
+	squeue --noheader --format=%i | xargs scancel    # the second among them: nobody heard its id
+	# A list of cameras.
+	strips=$bin/tiltcal-batch; echo 'a --square 25' > list.txt
+	submit 2 INT 130 list.txt --sbatch --hold; says "^cancelled what was submitted: [0-9]* [0-9]*$"
+	await "end of all" sh -c "[ -z \"\$(squeue --noheader)\" ]" ;;
+names)
+	# A folder of Latin-1: sbatch's words and script, logs, the command of the part that is missing.
+	export LC_ALL=C PYTHONIOENCODING=utf-8:strict
+	there=$(printf 'd\351 x'); mkdir "$there"; cd "$there"
+	scene s.pov "$blur"; one one.png s.pov +W32 +H24
+	expect 0 s.pov +W32 +H24 --parts 2 --equal-rows; dir=$(folder); prints "$there/s.strips.*/log/"
+	await "end of the join" ended "$dir"
+	[ -s s.png ] || fail "no picture: $(cat "$dir"/log/*)"
+	pixels one.png s.png "no UTF-8"; grep -q "$there/s.png: joined" "$dir/log/join.txt" || fail "$(cat "$dir/log/join.txt")"
+	expect 1 s.pov +W32 +H24 --parts 2 --equal-rows --sbatch "--partition=$there"; says "sbatch refused"
+	# And a list of cameras.
+	strips=$bin/tiltcal-batch; echo "a --square 25 --untilted '$there.jpg'" > list.txt
+	expect 0 list.txt; await "end of the table" ended list
+	grep -q "alone: .*$there/list" list/log/table.txt || fail "$(cat list/log/table.txt)" ;;
 batch)
 	# A list of cameras as an array, with the table at the end; one of them fails.
 	photos=$here/../../scenes/boxes/photos/target strips=$bin/tiltcal-batch

@@ -21,7 +21,7 @@ expect() {
 	"$strips" "$@" > out 2> err
 	got=$?
 	[ $got = "$want" ] || fail "exit code $got, expected $want: povray-strips $*"
-	[ -n "${SLURM_CONF:-}" ] || [ -z "$(ls tmp)" ] || fail "left in TMPDIR: $(ls tmp)"   # on a cluster parts may be running
+	[ -n "${SLURM_CONF:-}" ] || [ -z "$(ls "$TMPDIR")" ] || fail "left in TMPDIR: $(ls "$TMPDIR")"   # on a cluster parts may be running
 }
 says() { grep -q -e "$1" err || fail "stderr does not say '$1'"; }
 prints() { grep -q -e "$1" out || fail "stdout does not say '$1'"; }

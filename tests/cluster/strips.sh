@@ -117,7 +117,26 @@ ini)
 	printf 'Input_File_Name=s.pov\nWidth=40\nHeight=30\nOutput_File_Name=picture.png\nLibrary_Path="a folder"\n' > s.ini
 	"$bin/povray" s.ini +Oone.png -D +WT1 > one.log 2>&1 || fail "one: $(tail -3 one.log)"
 	expect 0 s.ini --parts 2 --local 2 --pilot-time 0.2s; pixels one.png picture.png "ini"
-	grep -q 'a folder/colour.inc' picture.strips/*/submission.json || fail "the included file is not among the scene's" ;;
+	grep -q 'a folder/colour.inc' picture.strips/*/submission.json || fail "the included file is not among the scene's"
+	# What stands after an ini file wins over it, what stands before it does not: in every command (light, pilot, parts, plan).
+	scene t.pov "$blur"
+	printf 'Declare=Colour=0.1\n+W40 +H30\n' > t.ini
+	printf '#!/bin/sh\necho "$*" >> %s/calls\nexec %s "$@"\n' "$work" "$bin/povray" > pov; chmod +x pov
+	order() { # NAME WORDS
+		name=$1 said=$2
+		shift 2
+		: > calls; expect 0 "$@" --parts 2 --local 2 --pilot-time 0.2s --povray ./pov +O$name.png; prints "equal cost by the pilot"; prints "$said"
+		expect 0 "$@" --pilot-time 0.2s --povray ./pov --plan +O$name.png
+		"$bin/povray" $(printf '%s\n' "$@" | sed 's/^t.pov$/+I&/') -D +WT1 +Oone.png > one.log 2>&1 || fail "one: $(tail -3 one.log)"
+		pixels one.png $name.png "$*"
+	}
+	order after "16 x 30" t.pov t.ini Declare=Colour=0.9 +W16
+	grep -v '^+Inone \|^+It.pov t.ini Declare=Colour=0.9 +W16 ' calls > out && fail "another order"
+	order before "40 x 30" +W16 Declare=Colour=0.9 t.ini t.pov
+	grep -v '^+Inone \|^+W16 Declare=Colour=0.9 t.ini t.pov ' calls > out && fail "another order"
+	: > calls; expect 1 +W16 Declare=Colour=0.9 t.ini t.pov --light --local 1 --povray ./pov; says "saved neither photons"
+	grep -v '^+Inone \|^\(+L[^ ]* \)*+W16 Declare=Colour=0.9 [^ ]*t.ini [^ ]*t.pov ' calls > out && fail "another order of the light"
+	order between "40 x 12" +W16 t.pov t.ini +H12 ;;
 words)
 	# Words are what POV-Ray makes of them: sections and switches in ini files, its names of frames, one frame and one pixel looked at.
 	scene s.pov perspective '#debug concat("frame ", str(frame_number, 0, 0), "\n")'
@@ -137,6 +156,28 @@ words)
 	for frame in f08 f09 g5; do pixels one/$frame.png two/$frame.png "$frame"; done
 	one one.png s.pov +W1 +H9; expect 0 s.pov +W1 +H9 --parts 2 --local 1 --equal-rows; pixels one.png s.png "one pixel wide"
 	expect 0 s.pov +W9 +H1 $dry; prints "9 x 1 in 1 parts" ;;
+names)
+	# Folders and words of Latin-1 (\351): in records, logs, messages, commands. Python prints as strictly as where LANG=en_US.UTF-8;
+	# for grep and sed letters are bytes.
+	export LC_ALL=C PYTHONIOENCODING=utf-8:strict
+	there=$(printf 'd\351 x'); mkdir "$there"; cd "$there"
+	scene s.pov "$blur"; one one.png s.pov +W32 +H24
+	expect 0 s.pov +W32 +H24 --pilot-time 0.2s --parts 3 --local 2; prints "$there/s.png: joined from 3 parts"; prints "equal cost"; dir=$(folder)
+	pixels one.png s.png "no UTF-8"
+	rm "$dir"/parts/00001.*; expect 1 --join "$dir"; says "$there/s.strips"
+	alone=$(sed -n 's/^ *\(.*povray-strips --part [^(]*[^( ]\) *(.*/\1/p' err); sh -c "$alone" > out 2> err || fail "its command: $alone"
+	expect 0 --join "$dir"; expect 0 --status "$dir"; prints "joined$"
+	expect 0 s.pov +W32 +H24 --pilot-time 0.2s --plan; prints "$there/s.plan.json"
+	light='#ifndef (Strips_Light) #declare Strips_Light = 0; #end'
+	scene l.pov "$blur" "$light global_settings { photons { count 300 #if (Strips_Light = 1) save_file \"strips.ph\" #end #if (Strips_Light = 2) load_file \"strips.ph\" #end } } sphere { 1.4*x, 0.5 pigment { rgbt 1 } interior { ior 1.5 } photons { target refraction on } }"
+	expect 0 l.pov +W32 +H24 --pilot-time 0.2s --parts 2 --local 1 --light; [ -s l.png ] || fail "no picture"
+	# POV-Ray opens no such name itself; it and others are said as they are.
+	cp s.pov "$there.pov"; expect 1 "$there.pov" --local 1; says "POV-Ray does not render $there.pov"
+	expect 3 "$there/none.pov" --local 1; says "$there/none.pov: no such file"
+	expect 2 --frob"$there"; says "no option --frob$there"
+	expect 3 --join "$there"; says "$there: no submission"
+	# A file that the scene names by such a name is among those that are watched.
+	echo 1 > "$there.txt"; echo "// \"$there.txt\"" >> s.pov; expect 0 s.pov +W32 +H24 --parts 2 --dry-run; prints "2 files of the scene" ;;
 film)
 	# Frames as tasks, then frames in strips; clocks and names are POV-Ray's.
 	scene s.pov "$blur"
@@ -207,7 +248,24 @@ older)
 	rm "$b/parts/00000.png"; expect 1 --join "$b"; says "2 of 3 parts are missing"
 	echo "// another" >> s.pov
 	expect 1 --resume "$b" --local 1; grep -q "it changed since the submission" "$b"/log/part-0.txt || fail "another scene is rendered into the set"
-	cmp -s a.png precious.png || fail "the picture changed" ;;
+	cmp -s a.png precious.png || fail "the picture changed"
+	# A picture that was moved away is made again, each time.
+	expect 0 s.pov +W24 +H18 --parts 2 --local 1 --equal-rows +Om.png; dir=$(folder)
+	for time in 1 2; do
+		mv m.png moved.png; expect 0 --status "$dir"; prints "all 2 parts are there, not joined:"; prints "povray-strips --join "
+		expect 0 --join "$dir"; cmp -s m.png moved.png || fail "not made again"
+	done
+	expect 0 --status "$dir"; prints "parts are there, joined$"
+	# A film whose last frame is not ours, or is a folder: no frame is replaced, nothing is left.
+	expect 0 s.pov +W16 +H12 +KFI1 +KFF3 --local 2 +Of.png; dir=$(folder); numbers=$(ls -i f[12].png)
+	mv f3.png f3; echo another > f3.png; expect 1 --join "$dir"; says "f3.png: it was written since"
+	rm f3.png; mkdir f3.png; expect 1 --join "$dir"; says "f3.png: it is a folder"
+	[ "$(ls -i f[12].png)" = "$numbers" ] || fail "half a film is replaced"; [ -z "$(find "$dir" -maxdepth 1 -name '*.png')" ] || fail "left: $(ls "$dir")"
+	rmdir f3.png; expect 0 --join "$dir"; cmp -s f3.png f3 || fail "not made again"
+	# Ended in the middle of moving (the second move kills): both what is there and what comes is known as ours.
+	printf 'import os, signal\nreal, count = os.replace, []\ndef replace(a, b):\n\tif str(b).endswith("f2.png"): os.kill(os.getpid(), signal.SIGKILL)\n\treal(a, b)\nos.replace = replace\n' > sitecustomize.py
+	PYTHONPATH=$work expect 137 --join "$dir"; expect 0 --status "$dir"; prints "not joined"
+	expect 0 --join "$dir"; expect 0 --status "$dir"; prints "parts are there, joined$" ;;
 disk)
 	# A full disk (a limit of 4 blocks stands for it: the picture is larger, the records are not), a folder that is read-only.
 	scene s.pov "$blur"

@@ -10,7 +10,7 @@ import slurm
 from batch_line import enter, is_done, run_line
 from batch_options import HELP, folder_for, parse, read_list
 from batch_summary import write_summary
-from common import DONE, REFUSED, Failure, file_error, program, read_json, usage, write_json
+from common import DONE, NAMES, REFUSED, Failure, file_error, program, read_json, usage, write_json
 
 
 def main(words, script):
@@ -63,7 +63,7 @@ def _summary(folder, script):
 
 def _version(tiltcal):
 	try:
-		return subprocess.run([tiltcal, "--version"], stdin=subprocess.DEVNULL, capture_output=True, text=True, check=True).stdout.strip()
+		return subprocess.run([tiltcal, "--version"], stdin=subprocess.DEVNULL, capture_output=True, **NAMES, check=True).stdout.strip()
 	except OSError as error:
 		raise Failure(3, f"{tiltcal}: cannot be run ({error.strerror}); give the tiltcal with --tiltcal") from None
 	except subprocess.CalledProcessError:
@@ -108,13 +108,12 @@ def _run_here(folder, batch, waiting, at_once, script):
 def _run_there(folder, batch, waiting, values, script):
 	name, options = os.path.basename(folder), values["--sbatch"]
 	own = [shlex.quote(script)]
-	with slurm.all_or_none(folder) as jobs:
+	with slurm.all_or_none() as jobs:
 		array = None
 		if waiting:
-			array = slurm.sbatch(name, folder, "task-%a.txt", own + ["--task", '"$SLURM_ARRAY_TASK_ID"', shlex.quote(folder)],
+			array = slurm.sbatch(jobs, name, folder, "task-%a.txt", own + ["--task", '"$SLURM_ARRAY_TASK_ID"', shlex.quote(folder)],
 				[f"--cpus-per-task={batch['cpus']}"] + options, array=waiting, at_once=values.get("--nodes", 0))
-			jobs.append(array)
-		jobs.append(slurm.sbatch(f"{name}-table", folder, "table.txt", own + ["--summary", shlex.quote(folder)], options, after_any=array))
+		slurm.sbatch(jobs, f"{name}-table", folder, "table.txt", own + ["--summary", shlex.quote(folder)], options, after_any=array)
 	print(f"Jobs: {'cameras ' + array + ', ' if array else ''}table {jobs[-1]}")
 	print(f"Watch:  squeue --jobs={','.join(jobs)}")
 	print(f"Cancel: scancel {' '.join(jobs)}")

@@ -8,7 +8,7 @@ import shlex
 import socket
 import time
 
-from common import Failure, digest, read_json, refused, run, write_json
+from common import NAMES, Failure, digest, read_json, read_text, refused, run, write_json
 
 
 def files_of(words):
@@ -72,7 +72,7 @@ def run_line(batch, folder, line):
 	threads = [] if any(re.match(r"--threads(=|$)", word) for word in words) else ["--threads", str(batch["cpus"])]
 	command = [batch["tiltcal"], "calibrate", *words, *threads, "--out", f"{folder}/{name}"]
 	log = log_file(folder, name)
-	with open(log, "a", encoding="utf-8") as out:
+	with open(log, "a", **NAMES) as out:
 		try:
 			fcntl.flock(out, fcntl.LOCK_EX | fcntl.LOCK_NB)
 		except OSError:
@@ -93,8 +93,7 @@ def run_line(batch, folder, line):
 def error_of(folder, name):
 	"""tiltcal's last word."""
 	try:
-		with open(log_file(folder, name), encoding="utf-8", errors="replace") as file:
-			lines = [line.strip() for line in file if line.strip()]
+		lines = [line.strip() for line in read_text(log_file(folder, name)).split("\n") if line.strip()]
 	except OSError:
 		return "nothing was said"
 	errors = [line for line in lines[1:] if "error:" in line.lower()]

@@ -3,7 +3,7 @@
 import os
 import re
 
-from common import Failure, usage
+from common import Failure, read_text, usage
 from words import parse as parse_words
 from words import split
 
@@ -65,10 +65,9 @@ def parse(words):
 def read_list(path, common):
 	"""A dictionary a line: name, words, place (FILE:LINE)."""
 	try:
-		with open(path, encoding="utf-8") as file:
-			text = file.read()
-	except (OSError, UnicodeDecodeError) as error:
-		raise Failure(3, f"{path}: cannot be read ({error.strerror if isinstance(error, OSError) else 'it is no UTF-8 text'})") from None
+		text = read_text(path)
+	except OSError as error:
+		raise Failure(3, f"{path}: cannot be read ({error.strerror})") from None
 	lines, names = [], {}
 	for number, line in enumerate(text.split("\n"), 1):
 		place = f"{path}:{number}"

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """What both programs need: refusals, files that appear whole, child processes that end with this one."""
+import codecs
 import contextlib
 import hashlib
 import json
@@ -13,6 +14,26 @@ import time
 from version import VERSION
 
 DONE, REFUSED, USAGE, FILE = 0, 1, 2, 3
+
+
+# Names of files are bytes. In text they are as Python has them from the command line, what is no character as surrogates, so that they come
+# out as they were: in messages, logs, records and scripts. For open() and subprocess:
+NAMES = {"encoding": sys.getfilesystemencoding(), "errors": "surrogateescape"}
+
+
+def _name_or_escape(error):
+	"""For what is printed, which must not die of a character that the terminal does not know either."""
+	try:
+		return codecs.lookup_error("surrogateescape")(error)
+	except UnicodeError:
+		return codecs.lookup_error("backslashreplace")(error)
+
+
+def read_text(path, begin=0):
+	"""From this byte on."""
+	with open(path, "rb") as file:
+		file.seek(begin)
+		return os.fsdecode(file.read()).replace("\r\n", "\n").replace("\r", "\n")
 
 
 class Failure(Exception):
@@ -42,7 +63,7 @@ def write_whole(path, data):
 	temporary = f"{path}.{socket.gethostname()}.{os.getpid()}.new"
 	try:
 		with open(temporary, "wb") as out:
-			out.write(data if isinstance(data, bytes) else data.encode())
+			out.write(data if isinstance(data, bytes) else data.encode("utf-8", "surrogateescape"))
 			out.flush()
 			os.fsync(out.fileno())
 		os.rename(temporary, path)
@@ -59,7 +80,7 @@ def write_json(path, value):
 def read_json(path):
 	"""None where there is no such file."""
 	try:
-		with open(path, encoding="utf-8") as file:
+		with open(path, encoding="utf-8", errors="surrogateescape") as file:
 			return json.load(file)
 	except FileNotFoundError:
 		return None
@@ -89,14 +110,38 @@ class Interrupted(Exception):
 		self.code = 128 + number
 
 
+SIGNALS = (signal.SIGTERM, signal.SIGINT, signal.SIGHUP)
+
+
+def _raise_it(number, _frame=None):
+	for other in SIGNALS:
+		signal.signal(other, signal.SIG_IGN)
+	raise Interrupted(number)
+
+
 def catch_signals():
 	"""scancel, a time limit, Ctrl-C: as an exception, so that temporary files and children go."""
-	def raise_it(number, _frame):
-		for other in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
-			signal.signal(other, signal.SIG_IGN)
-		raise Interrupted(number)
-	for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
-		signal.signal(number, raise_it)
+	for number in SIGNALS:
+		signal.signal(number, _raise_it)
+
+
+@contextlib.contextmanager
+def signals_wait(text):
+	"""Until the end of the block, where the first is raised; `text` says what is waited for."""
+	came = []
+
+	def note(number, _frame):
+		if not came:
+			print(text, file=sys.stderr, flush=True)
+		came.append(number)
+	before = {number: signal.signal(number, note) for number in SIGNALS}
+	try:
+		yield
+	finally:
+		for number, handler in before.items():
+			signal.signal(number, handler)
+	if came:
+		_raise_it(came[0])
 
 
 def run(command, log=None, env=None, cwd=None, enough=None):
@@ -129,6 +174,9 @@ def run(command, log=None, env=None, cwd=None, enough=None):
 
 def program(name, help_text, words, main):
 	"""Exit code of `main()`, or of --help and --version; its refusals as one message."""
+	codecs.register_error("name-or-escape", _name_or_escape)
+	for stream in (sys.stdout, sys.stderr):
+		stream.reconfigure(errors="name-or-escape")
 	if "-h" in words or "--help" in words:
 		print(help_text, end="")
 		return DONE

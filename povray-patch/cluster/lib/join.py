@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """The last job: one picture, or a film's frames, when every part of this submission is there."""
+import contextlib
 import glob
 import os
 import shlex
 import subprocess
 
-from common import Failure, file_error, read_json, refused, write_json
+from common import NAMES, Failure, file_error, read_json, refused, write_json
 from scene import frame_name
 from submission import describe, is_done, load_cut, missing_units, part_file
 from submission import record_file, stamp
@@ -18,29 +19,58 @@ def join(sub, script):
 	missing = missing_units(sub, cut, thorough=True)
 	if missing:
 		raise refused(missing_text(sub, cut, missing, script))
-	frames = sorted({unit["frame"] for unit in cut["units"]}, key=lambda frame: frame or 0)
-	joined = read_json(f"{sub['folder']}/joined.json") or {}
-	for frame in frames:
-		numbers = [i for i, unit in enumerate(cut["units"]) if unit["frame"] == frame]
-		_check_rows([cut["units"][i] for i in numbers], sub["height"])
-		target = frame_name(sub["output"], frame, sub["digits"])
-		_check_target(sub, target, joined)
-		made = f"{sub['folder']}/{os.path.basename(target)}"
-		for left in glob.glob(f"{glob.escape(made)}.*.new"):    # a join before was ended
-			os.unlink(left)
-		done = subprocess.run([sub["picture_rows"], "join", str(sub["height"]), made] + [part_file(sub, i) for i in numbers],
-			stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
-		if done.returncode != 0:
-			raise Failure(3, f"{done.stderr.strip()}; the parts stay, join again with\n  {command(script, '--join', sub)}")
-		# Known as ours before it is there, so that a join that is ended now may be done again.
-		joined[target] = stamp(made)
-		write_json(f"{sub['folder']}/joined.json", joined)
+	frames = _frames(cut)
+	# All are checked and made before one is moved: a film is replaced whole or not at all.
+	joined = _joined(sub)
+	made = {}
+	try:
+		for frame in frames:
+			numbers = [i for i, unit in enumerate(cut["units"]) if unit["frame"] == frame]
+			_check_rows([cut["units"][i] for i in numbers], sub["height"])
+			target = frame_name(sub["output"], frame, sub["digits"])
+			_check_target(sub, target, joined)
+			made[target] = (f"{sub['folder']}/{os.path.basename(target)}", numbers)
+		for picture, numbers in made.values():
+			_make(sub, picture, numbers, script)
+		for target in made:
+			_check_target(sub, target, joined)
+		_move({target: picture for target, (picture, _) in made.items()}, f"{sub['folder']}/joined.json")
+	finally:
+		for picture, _ in made.values():
+			with contextlib.suppress(OSError):
+				os.unlink(picture)
+	print(balance_text(sub, cut))
+	print(f"{sub['output'] if frames == [None] else frame_name(sub['output'], frames[0], sub['digits']) + ' and so on'}: joined from {len(cut['units'])} parts")
+
+
+def _frames(cut):
+	return sorted({unit["frame"] for unit in cut["units"]}, key=lambda frame: frame or 0)
+
+
+def _make(sub, picture, numbers, script):
+	for left in glob.glob(f"{glob.escape(picture)}.*.new"):    # a join before was ended
+		os.unlink(left)
+	done = subprocess.run([sub["picture_rows"], "join", str(sub["height"]), picture] + [part_file(sub, i) for i in numbers],
+		stdin=subprocess.DEVNULL, capture_output=True, **NAMES, check=False)
+	if done.returncode != 0:
+		raise Failure(3, f"{done.stderr.strip()}; the parts stay, join again with\n  {command(script, '--join', sub)}")
+
+
+def _move(pictures, record):
+	"""What is there and what is to be there are both known as ours before, so that a join that is ended now may be done again."""
+	new = {target: stamp(made) for target, made in pictures.items()}
+	write_json(record, {target: [now for now in (stamp(target), new[target]) if now] for target in pictures})
+	for target, made in pictures.items():
 		try:
 			os.replace(made, target)
 		except OSError as error:
 			raise file_error(target, error) from None
-	print(balance_text(sub, cut))
-	print(f"{sub['output'] if frames == [None] else frame_name(sub['output'], frames[0], sub['digits']) + ' and so on'}: joined from {len(cut['units'])} parts")
+	write_json(record, {target: [new[target]] for target in pictures})
+
+
+def _joined(sub):
+	"""By picture, how this submission's joins left it: a list, of which one is right."""
+	return read_json(f"{sub['folder']}/joined.json") or {}
 
 
 def _check_rows(units, height):
@@ -56,14 +86,16 @@ def _check_rows(units, height):
 
 def _check_target(sub, target, joined):
 	"""What somebody else wrote since the submission, such as a newer one, is not replaced by an older picture."""
-	now = stamp(target)
-	if now not in (joined.get(target), sub["before"].get(target)):
-		raise refused(f"{target}: it was written since this submission began, by a newer one perhaps; move it away and run\n"
-			f"  povray-strips --join {shlex.quote(sub['folder'])}")
+	why = "it is a folder" if os.path.isdir(target) else "it was written since this submission began, by a newer one perhaps" \
+		if stamp(target) not in (None, sub["before"].get(target), *joined.get(target, [])) else ""
+	if why:
+		raise refused(f"{target}: {why}; move it away and run\n  povray-strips --join {shlex.quote(sub['folder'])}")
 	try:
-		os.makedirs(os.path.dirname(target) or ".", exist_ok=True)
+		os.makedirs(os.path.dirname(target), exist_ok=True)
 	except OSError as error:
 		raise file_error(target, error) from None
+	if not os.access(os.path.dirname(target), os.W_OK | os.X_OK):
+		raise Failure(3, f"{target}: its folder cannot be written into")
 
 
 def command(script, action, sub, *more):
@@ -102,5 +134,8 @@ def status_text(sub, script):
 	there = [i for i in range(len(cut["units"])) if is_done(sub, cut, i)]
 	missing = [i for i in range(len(cut["units"])) if i not in set(there)]
 	if not missing:
-		return f"all {len(there)} parts are there" + (", joined" if read_json(f"{sub['folder']}/joined.json") else "")
+		joined = _joined(sub)
+		targets = [frame_name(sub["output"], frame, sub["digits"]) for frame in _frames(cut)]
+		is_joined = all(target in joined and stamp(target) == joined[target][-1] for target in targets)
+		return f"all {len(there)} parts are there, " + ("joined" if is_joined else f"not joined:\n  {command(script, '--join', sub)}")
 	return f"{len(there)} of {len(cut['units'])} parts are there\n" + missing_text(sub, cut, missing, script)

@@ -3,8 +3,8 @@
 import os
 import re
 
-from common import refused, run
-from povray_options import error_lines, is_ini, one_pixel, quoted
+from common import read_text, refused, run
+from povray_options import error_lines, is_switch, one_pixel, quoted
 from scene import command
 
 PHOTONS, RADIOSITY = "strips.ph", "strips.rca"
@@ -12,6 +12,11 @@ PHOTONS, RADIOSITY = "strips.ph", "strips.rca"
 
 def light_folder(sub):
 	return f"{sub['folder']}/light"
+
+
+def _seen(sub, path):
+	"""From the light's folder, where POV-Ray runs: it knows no letters but ASCII's in the names that it opens."""
+	return path if path.isascii() else os.path.relpath(path, light_folder(sub))
 
 
 def make_light(sub):
@@ -27,13 +32,13 @@ def make_light(sub):
 	# A pilot of one block: the pretrace is done for the whole picture, and then hardly a pixel; a camera without lens samples knows no
 	# pilot, and is ended then. Photons are saved by another process, of one pixel, because a pilot does not save them.
 	pilot = {"TILT_LENS_PILOT": f"1,2,0.001,{folder}/pilot", **({"TILT_LENS_PILOT_WRITES": "1"} if sub["may_write"] else {})}
-	words = ["+WT1", "+GA", "+O" + quoted(f"{folder}/pixel")]
+	words = ["+WT1", "+GA", "+O" + quoted(_seen(sub, f"{folder}/pixel"))]
 	if sub["frames"]:
 		words += [f"+SF{sub['frames'][0]}", f"+EF{sub['frames'][0]}"]
 	_run(sub, _words(sub, 1) + words + one_pixel(sub["width"], sub["height"]), log, {})
 	if re.search(r"\bradiosity\b", _text(sub)):
 		photons = os.path.exists(f"{folder}/{PHOTONS}")
-		_run(sub, _words(sub, 2 if photons else 1) + words + ["+V", "+RFO", "+RF" + quoted(f"{folder}/{RADIOSITY}")], log, pilot, _pretraced)
+		_run(sub, _words(sub, 2 if photons else 1) + words + ["+V", "+RFO", "+RF" + quoted(_seen(sub, f"{folder}/{RADIOSITY}"))], log, pilot, _pretraced)
 	if not any(os.path.exists(f"{folder}/{name}") for name in (PHOTONS, RADIOSITY)):
 		raise refused("--light: the scene saved neither photons (photons { save_file \"strips.ph\" } with Strips_Light = 1) nor radiosity; "
 			"povray-strips --help shows what to write")
@@ -45,8 +50,7 @@ def _text(sub):
 	text = ""
 	for path in sub["files"]:
 		if re.search(r"\.(pov|inc|mac)$", path, re.I):
-			with open(path, encoding="utf-8", errors="replace") as file:
-				text += file.read()
+			text += read_text(path)
 	return text
 
 
@@ -59,21 +63,21 @@ def light_words(sub):
 	if not sub["light"]:
 		return []
 	radiosity = f"{light_folder(sub)}/{RADIOSITY}"
-	return _words(sub, 2) + (["+RFI", "+RF" + quoted(radiosity)] if os.path.exists(radiosity) else [])
+	return _words(sub, 2) + (["+RFI", "+RF" + quoted(_seen(sub, radiosity))] if os.path.exists(radiosity) else [])
 
 
 def place(sub):
-	"""(working folder, scene, options) for POV-Ray: with --light the light's folder, where photons are saved and loaded, and whose names the
+	"""(working folder, the user's words) for POV-Ray: with --light the light's folder, where photons are saved and loaded, and whose names the
 	scene gives without a folder; the scene's own files are found from there by their whole names and the library paths."""
 	if not sub["light"]:
-		return sub["cwd"], sub["scene"], sub["options"]
+		return sub["cwd"], sub["words"]
 
 	def there(name):
-		return os.path.join(sub["cwd"], name)
-	libraries = ["+L" + quoted(path) for path in [sub["cwd"], *sub["libraries"]]]
-	options = [quoted(there(word.strip('"'))) if is_ini(word) else word for word in sub["options"]]
-	given = ["+I" + quoted(there(sub["input"]))] if os.path.isfile(there(sub["input"])) else []
-	return light_folder(sub), there(sub["scene"]), libraries + options + given
+		return _seen(sub, os.path.join(sub["cwd"], name))
+	libraries = ["+L" + quoted(_seen(sub, path)) for path in [sub["cwd"], *sub["libraries"]]]
+	words = [word if is_switch(word) else there(word.strip('"')) for word in sub["words"]]
+	given = ["+I" + quoted(there(sub["input"]))] if os.path.isfile(os.path.join(sub["cwd"], sub["input"])) else []
+	return light_folder(sub), libraries + words + given
 
 
 def _pretraced(log):
@@ -83,13 +87,11 @@ def _pretraced(log):
 
 
 def _run(sub, more, log, env, enough=None):
-	folder, scene, options = place(sub)
+	folder, words = place(sub)
 	began = os.path.getsize(log) if os.path.exists(log) else 0
 
 	def said():
-		with open(log, encoding="utf-8", errors="replace") as file:
-			file.seek(began)
-			return file.read()
-	code = run(command(sub["povray"], scene, options, more), log, env, folder, (lambda: enough(said())) if enough else None)
+		return read_text(log, began)
+	code = run(command(sub["povray"], words, more), log, env, folder, (lambda: enough(said())) if enough else None)
 	if code != 0 and not (enough and enough(said()) and "Frontend halted render" in said()):
 		raise refused(f"the light is not rendered:\n{error_lines(said())}")

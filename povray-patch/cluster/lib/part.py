@@ -7,7 +7,7 @@ import socket
 import tempfile
 import time
 
-from common import Failure, digest, refused, run, write_json
+from common import Failure, digest, read_text, refused, run, write_json
 from light import light_words, place
 from povray_options import error_lines, quoted
 from scene import check_files, command
@@ -48,11 +48,10 @@ def _render(sub, rows, unit, here):
 		if sub["cpus"]:
 			more.append(f"+WT{sub['cpus']}")
 		cpu = _children_cpu()
-		place_, scene, options = place(sub)
-		code = run(command(sub["povray"], scene, options, more), log, cwd=place_)
+		place_, words = place(sub)
+		code = run(command(sub["povray"], words, more), log, cwd=place_)
 		cpu = _children_cpu() - cpu
-		with open(log, encoding="utf-8", errors="replace") as file:
-			said = file.read()
+		said = read_text(log)
 		written = [name for name in os.listdir(folder) if name.endswith(sub["suffix"])]
 		if code != 0 or len(written) != 1:
 			_keep_log(log, f"{sub['folder']}/log/povray-{unit:05d}.txt")
@@ -60,8 +59,7 @@ def _render(sub, rows, unit, here):
 		target = part_file(sub, unit)
 		code = run([sub["picture_rows"], "cut", str(rows["first"]), str(rows["last"]), os.path.join(folder, written[0]), target], f"{folder}/cut")
 		if code != 0:
-			with open(f"{folder}/cut", encoding="utf-8") as file:
-				raise Failure(3, f"part {unit}: {file.read().strip()}")
+			raise Failure(3, f"part {unit}: " + read_text(f"{folder}/cut").strip())
 		write_json(record_file(sub, unit), {"id": sub["id"], "unit": unit, "frame": rows["frame"], "first": rows["first"], "last": rows["last"],
 			"bytes": os.path.getsize(target), "sha256": digest(target), "node": here, "began": began,
 			"seconds": time.monotonic() - start, "cpu_seconds": cpu})

@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """The first job: learns where the picture's time goes, by tiltcost's pilot, and cuts it."""
-import json
 import os
 import subprocess
 
-from common import refused, write_json
+from common import NAMES, read_json, refused, write_json
 from cutting import FIRST_STRIP, cost_of, cut, equal_rows, frame_groups
 from light import light_words, place
 from submission import load_cut
@@ -53,8 +52,8 @@ def row_costs(sub):
 	if sub["equal_rows"]:
 		return {}, "equal rows, as asked"
 	rows = f"{sub['folder']}/rows.json"
-	folder, scene, options = place(sub)
-	command = [sub["tiltcost"], "--povray", sub["povray"], scene, *options, "--rows", rows,
+	folder, words = place(sub)
+	command = [sub["tiltcost"], "--povray", sub["povray"], *words, "--rows", rows,
 		"--pilot-time", sub["pilot_time"], "--pilot-blocks", str(sub["pilot_blocks"])]
 	if sub["frames"]:
 		middle = sub["frames"][len(sub["frames"]) // 2]
@@ -65,15 +64,14 @@ def row_costs(sub):
 	if sub["may_write"]:
 		command.append("--scene-may-write")
 	try:
-		done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, check=False,
+		done = subprocess.run(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, **NAMES, check=False,
 			cwd=folder)
 	except OSError as error:
 		return {}, f"equal rows, because {sub['tiltcost']} cannot be run ({error.strerror})"
 	if done.returncode != 0:
 		said = " ".join(done.stderr.split("error:", 1)[-1].split())
 		return {}, f"equal rows, because tiltcost says: {said[:300]}"
-	with open(rows, encoding="utf-8") as file:
-		costs = json.load(file)
+	costs = read_json(rows)
 	os.unlink(rows)
 	if len(costs["row_s"]) != sub["height"]:
 		raise refused(f"tiltcost saw {len(costs['row_s'])} rows, not {sub['height']}: does the scene choose its own size?")

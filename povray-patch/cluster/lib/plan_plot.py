@@ -4,11 +4,13 @@ import os
 import subprocess
 import sys
 
+from common import NAMES
+
 
 def plot(path, curves, scene):
 	"""Whether it is drawn; without gnuplot it is not, and that is said."""
 	script = ["set terminal svg size 900,560 font 'sans,13' background 'white'", f"set output {_quoted(path + '.new')}",
-		f"set title {_quoted(scene + ': time on a cluster')} noenhanced", "set logscale xy", "set xrange [1:1000]", "set xlabel 'nodes'", "set ylabel 'seconds'",
+		f"set title {_quoted(scene.encode(errors='replace').decode() + ': time on a cluster')} noenhanced", "set logscale xy", "set xrange [1:1000]", "set xlabel 'nodes'", "set ylabel 'seconds'",
 		"set y2label 'efficiency, %'", "set y2range [0:100]", "set y2tics 0,25,100", "set ytics nomirror", "set grid xtics ytics lt 1 lc rgb '#dddddd'",
 		"set key outside bottom center horizontal"]
 	colours = ("#1f5fa8", "#c0504d", "#4f8f3a", "#7a4fa3")
@@ -20,7 +22,7 @@ def plot(path, curves, scene):
 		lines.append(f"$c{k} using 1:3 axes x1y2 with lines dt 2 lc rgb '{colour}' title 'efficiency'")
 	text = "\n".join(data + script + ["plot " + ", ".join(lines)]) + "\n"
 	try:
-		done = subprocess.run(["gnuplot"], input=text, capture_output=True, text=True, check=False)
+		done = subprocess.run(["gnuplot"], input=text, capture_output=True, **NAMES, check=False)
 	except OSError:
 		print("note: no plot; it needs gnuplot", file=sys.stderr)
 		return False

@@ -7,7 +7,7 @@ import shutil
 import sys
 import tempfile
 
-from common import duration, refused, run, usage, write_json
+from common import duration, read_text, refused, run, usage, write_json
 from cutting import longest
 from pilot import row_costs
 from plan_plot import plot
@@ -37,8 +37,7 @@ def _cpu_of(words, log, cwd=None):
 	code = run(words, log, cwd=cwd)
 	after = resource.getrusage(resource.RUSAGE_CHILDREN)
 	if code != 0:
-		with open(log, encoding="utf-8", errors="replace") as file:
-			raise refused(f"{words[0]} failed:\n{error_lines(file.read())}")
+		raise refused(f"{words[0]} failed:\n{error_lines(read_text(log))}")
 	return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
@@ -54,7 +53,7 @@ def measure(sub, script):
 			size = [f"+W{max(2, sub['width'] // share)}", f"+H{max(2, sub['height'] // share)}"]
 			picture = f"{folder}/{share}{sub['suffix']}"
 			more = size + ["+GA", "+WT1", "+SC2", "+EC2", "+SR2", "+ER2", "+O" + quoted(picture)]
-			found[share] = _cpu_of(command(sub["povray"], sub["scene"], sub["options"], more), log)
+			found[share] = _cpu_of(command(sub["povray"], sub["words"], more), log)
 		join = _cpu_of([sub["picture_rows"], "cut", "1", str(sub["height"]), f"{folder}/1{sub['suffix']}", f"{folder}/joined{sub['suffix']}"], log)
 		python = _cpu_of([sys.executable, script, "--version"], log)
 	finally:

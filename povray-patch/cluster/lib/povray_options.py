@@ -4,15 +4,19 @@ import os
 import re
 import subprocess
 
-from common import Failure, refused, usage
+from common import NAMES, Failure, read_text, refused, usage
 
 # Which part is rendered, which povray-strips says itself: words, and the keywords that they and ini files come down to.
 FORBIDDEN = re.compile(r"[+-](S[RCF]|E[RCF]|C$|GI)|(Start|End)_(Row|Column)=|Subset_(Start|End)_Frame=|Continue_Trace=|Create_Ini=", re.I)
 DECIDED = ("start_row", "end_row", "start_column", "end_column", "subset_start_frame", "subset_end_frame")
 
 
+def is_switch(word):
+	return bool(re.match(r"\+.|-[^-]|[A-Za-z_]+=", word)) and word != "-h"
+
+
 def is_ini(word):
-	return without_section(word).lower().endswith(".ini")
+	return not is_switch(word) and without_section(word).lower().endswith(".ini")
 
 
 def without_section(word):
@@ -24,8 +28,12 @@ def quoted(path):
 	return f'"{path}"' if re.search(r"\s", path) else path
 
 
-def scene_word(scene):
-	return quoted(scene) if is_ini(scene) else "+I" + quoted(scene)
+def povray_words(words):
+	"""The user's words as POV-Ray takes them, in their order: which options an ini file overrides depends on where it stands. The first
+	file is the scene."""
+	files = [k for k, word in enumerate(words) if not is_switch(word)]
+	scene = files[0] if files and not is_ini(words[files[0]]) else None
+	return [word if is_switch(word) else ("+I" if k == scene else "") + quoted(word) for k, word in enumerate(words)]
 
 
 def error_lines(log):
@@ -41,16 +49,16 @@ def output_of(words, env=None):
 		done = subprocess.run(words, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=env, check=False)
 	except OSError as error:
 		raise Failure(3, f"{words[0]}: cannot be run ({error.strerror}); give the POV-Ray with --povray") from None
-	return done.stdout.decode(errors="replace").replace("\r", "\n")
+	return done.stdout.decode(**NAMES).replace("\r", "\n")
 
 
-def resolve(povray, scene, options, folder):
+def resolve(povray, words, folder):
 	"""Values by keyword in small letters, as POV-Ray's ini files have them; of library_path, all that the user names, in order."""
-	for word in options:
+	for word in words:
 		if FORBIDDEN.match(word):
 			raise usage(f"'{word}' is decided here: leave it out")
-	values = _written(povray, scene_word(scene), options, folder)
-	own = _written(povray, "+Inone", [], folder)["library_path"]
+	values = _written(povray, words, folder)
+	own = _written(povray, ["+Inone"], folder)["library_path"]
 	values["library_path"] = [path for path in values["library_path"] if path not in own]
 	for key in DECIDED:
 		if key in values:
@@ -60,20 +68,19 @@ def resolve(povray, scene, options, folder):
 	return values
 
 
-def _written(povray, scene, options, folder):
+def _written(povray, words, folder):
 	"""What POV-Ray writes by Create_Ini. Then it ends, before it opens the scene: an include header is missing."""
 	path = f"{folder}/options.ini"
-	log = output_of([povray, scene, *options, "-D", "-P", f"+GI{quoted(path)}", f"+HI{quoted(folder + '/none')}"])
+	log = output_of([povray, *povray_words(words), "-D", "-P", f"+GI{quoted(path)}", f"+HI{quoted(folder + '/none')}"])
 	values = {"library_path": []}
 	try:
-		with open(path, encoding="utf-8", errors="replace") as file:
-			for line in file:
-				key, _, value = line.rstrip("\n").partition("=")
-				value = value[1:-1] if value.startswith('"') else value
-				if key == "Library_Path":
-					values["library_path"].append(value)
-				else:
-					values[key.lower()] = value
+		for line in read_text(path).split("\n"):
+			key, _, value = line.partition("=")
+			value = value[1:-1] if value.startswith('"') else value
+			if key == "Library_Path":
+				values["library_path"].append(value)
+			else:
+				values[key.lower()] = value
 		os.unlink(path)
 	except FileNotFoundError:
 		raise refused(f"POV-Ray does not take these options; nothing was submitted:\n{error_lines(log)}") from None

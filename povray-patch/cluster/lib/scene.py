@@ -4,29 +4,29 @@ import os
 import re
 import tempfile
 
-from common import Failure, digest, file_error, refused
-from povray_options import error_lines, frames_of, is_ini, one_pixel, output_of, quoted, resolve, scene_word, without_section
+from common import Failure, digest, file_error, read_text, refused
+from povray_options import error_lines, frames_of, is_ini, one_pixel, output_of, povray_words, quoted, resolve, without_section
 
 SUFFIX = {"PNG": ".png", "EXR": ".exr"}
 
 
-def command(povray, scene, options, more):
+def command(povray, words, more):
 	"""Own words come last: they win."""
-	return [povray, scene_word(scene), *options, "-D", "-P", "-C", *more]
+	return [povray, *povray_words(words), "-D", "-P", "-C", *more]
 
 
-def inspect(povray, scene, options, work, may_write):
+def inspect(povray, scene, words, work, may_write):
 	"""A dictionary: width, height, suffix, frames (None for a still), digits of their numbers, output, libraries, input. Refuses what
 	POV-Ray does not render."""
 	if not is_ini(scene) and not os.path.isfile(scene):
 		raise Failure(3, f"{scene}: no such file; it is looked for from {work}")
 	with tempfile.TemporaryDirectory(prefix="povray-strips-") as folder:
-		values = resolve(povray, scene, options, folder)
+		values = resolve(povray, words, folder)
 		film = frames_of(values)
 		# A pilot of nothing: it refuses scenes that write files, and traces no pixel that is not asked for.
 		env = dict(os.environ, TILT_LENS_PILOT=f"1,16,0.001,{folder}/p", **({"TILT_LENS_PILOT_WRITES": "1"} if may_write else {}))
 		pixel = ["+GA", "+Q1", *one_pixel(int(values.get("width", 160)), int(values.get("height", 120))), "+O" + quoted(f"{folder}/p")]
-		log = output_of(command(povray, scene, options, pixel + ([f"+SF{film[0]}", f"+EF{film[0]}"] if film else [])), env)
+		log = output_of(command(povray, words, pixel + ([f"+SF{film[0]}", f"+EF{film[0]}"] if film else [])), env)
 	if re.search(r"A pilot render writes no files", log):
 		raise refused(f"{scene} opens a file for writing, and every part would. If that does no harm, let it with --scene-may-write:\n" + error_lines(log))
 	size = re.search(r"Image resolution\.*(\d+) by (\d+)", log)
@@ -60,11 +60,11 @@ def frame_name(output, frame, digits):
 	return f"{stem}{frame:0{digits}d}{suffix}"
 
 
-def files_of(scene, options, found, targets):
+def files_of(scene, words, found, targets):
 	"""Digests of the scene's files as far as their names stand in it: what is named in quotes and is there, from the working
 	folder or from a library path, and so on in those that are named; not what it writes itself, nor the picture. POV-Ray's own include
 	files belong to its installation."""
-	waiting = [without_section(word) for word in [scene, *options, found["input"]] if word in (scene, found["input"]) or is_ini(word)]
+	waiting = [without_section(word) for word in [*words, found["input"]] if word in (scene, found["input"]) or is_ini(word)]
 	files, written = {}, {os.path.abspath(target) for target in targets}
 	while waiting:
 		name = waiting.pop()
@@ -79,8 +79,7 @@ def files_of(scene, options, found, targets):
 				except OSError as error:
 					raise file_error(path, error) from None
 				if re.search(r"\.(pov|inc|ini|mac)$", path, re.I):
-					with open(path, encoding="utf-8", errors="replace") as file:
-						text = file.read()
+					text = read_text(path)
 					waiting += re.findall(r'"([^"\n]{1,250})"', text)
 					written |= {os.path.abspath(name) for name in written_by(text)}
 			break

@@ -3,13 +3,14 @@
 import contextlib
 import re
 import subprocess
+import sys
 
-from common import Failure, read_json, refused, write_json
+from common import NAMES, Failure, read_json, refused, signals_wait, write_json
 
 
 def call(command):
 	try:
-		done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+		done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, **NAMES, check=False)
 	except FileNotFoundError:
 		raise refused(f"{command[0]}: no such program; is this the cluster's login node? Without Slurm: --local N") from None
 	if done.returncode != 0:
@@ -34,8 +35,8 @@ def index_list(numbers):
 	return ",".join(str(a) if a == b else f"{a}-{b}" for a, b in ranges)
 
 
-def sbatch(name, folder, log, command, options, array=None, at_once=0, after=None, after_any=None):
-	"""Submits; the job's id. `command` is words, `log` a name below the folder's log/."""
+def sbatch(jobs, name, folder, log, command, options, array=None, at_once=0, after=None, after_any=None):
+	"""Submits; the job's id, which is in `jobs` (all_or_none) and in jobs.json then. `command` is words, `log` a name below the folder's log/."""
 	words = ["sbatch", "--parsable", "--requeue", "--open-mode=append", f"--job-name={name}", f"--chdir={folder}",
 		f"--output={folder}/log/{log}", "--kill-on-invalid-dep=yes"]
 	if array is not None:
@@ -45,23 +46,34 @@ def sbatch(name, folder, log, command, options, array=None, at_once=0, after=Non
 	if after_any:
 		words.append(f"--dependency=afterany:{after_any}")
 	script = "#!/bin/sh\nexec " + " ".join(command) + "\n"
-	done = subprocess.run(words + options, input=script, capture_output=True, text=True, check=False)
-	if done.returncode != 0:
-		raise refused(f"sbatch refused: {(done.stderr or done.stdout).strip()}")
-	return done.stdout.strip().split(";")[0]
+	# A job whose id is not heard could not be cancelled: a signal waits, and Ctrl-C does not reach sbatch.
+	with signals_wait("waiting for sbatch's answer"):
+		done = subprocess.run(words + options, input=script, capture_output=True, **NAMES, check=False, start_new_session=True)
+		if done.returncode != 0:
+			raise refused(f"sbatch refused: {(done.stderr or done.stdout).strip()}")
+		jobs.append(done.stdout.strip().split(";")[0])
+		write_json(f"{folder}/jobs.json", jobs)
+	return jobs[-1]
 
 
 @contextlib.contextmanager
-def all_or_none(folder):
-	"""A list for the ids of jobs that belong together. Where one is refused the others are cancelled; else jobs.json has them all."""
+def all_or_none():
+	"""A list for the ids of jobs that belong together. Where one is refused, or a signal comes, those before it are cancelled."""
 	jobs = []
 	try:
 		yield jobs
-	except Failure:
+	except BaseException:
 		if jobs:
-			call(["scancel"] + jobs)
+			_cancel(jobs)
 		raise
-	write_json(f"{folder}/jobs.json", jobs)
+
+
+def _cancel(jobs):
+	try:
+		call(["scancel"] + jobs)
+		print(f"cancelled what was submitted: {' '.join(jobs)}", file=sys.stderr)
+	except Failure as error:
+		print(f"submitted and not cancelled ({error}); do it: scancel {' '.join(jobs)}", file=sys.stderr)
 
 
 def refuse_active(folder, place, whose):
@@ -77,7 +89,7 @@ def _active(jobs, folder):
 	for job in jobs:
 		try:
 			done = subprocess.run(["squeue", "--noheader", "--format=%i", f"--jobs={job}"], stdin=subprocess.DEVNULL,
-				capture_output=True, text=True, check=False)
+				capture_output=True, **NAMES, check=False)
 		except FileNotFoundError:
 			return []
 		if done.returncode != 0 and "Invalid job id" not in done.stderr:    # so it calls what ended long ago

@@ -6,13 +6,12 @@ import sys
 
 import local
 import slurm
-from common import DONE, program, refused, usage
+from common import DONE, program, read_text, refused, usage
 from join import command, join, status_text
 from light import make_light
 from part import render_task
 from planning import plan
 from pilot import make_cut, task_count
-from povray_options import is_ini, quoted
 from scene import files_of, frame_name, inspect
 from strips_options import HELP, parse
 from submission import create, load, load_cut, missing_units, stamp
@@ -47,17 +46,17 @@ def _describe(values, script):
 	beside = os.path.dirname(script)
 	povray = values.get("--povray", os.path.join(beside, "povray"))
 	povray = os.path.abspath(povray) if "/" in povray else povray
-	scene, options = values["own"][0], [quoted(word) if is_ini(word) else word for word in values["own"][1:]] + values["povray"]
-	found = inspect(povray, scene, options + (["Declare=Strips_Light=0"] if "--light" in values else []), os.getcwd(), "--scene-may-write" in values)
+	scene, words = values["own"][0], values["all"]
+	found = inspect(povray, scene, words + (["Declare=Strips_Light=0"] if "--light" in values else []), os.getcwd(), "--scene-may-write" in values)
 	output = os.path.abspath(found["output"])
 	frames = found["frames"]
 	targets = [frame_name(output, frame, found["digits"]) for frame in frames or [None]]
-	return {"cwd": os.getcwd(), "scene": scene, "options": options, "povray": povray, "tiltcost": os.path.join(beside, "tiltcost"),
+	return {"cwd": os.getcwd(), "scene": scene, "words": words, "povray": povray, "tiltcost": os.path.join(beside, "tiltcost"),
 		"picture_rows": os.path.join(beside, "..", "lib", "tilt-lens", "picture_rows"), "parts": values.get("--parts", len(frames) if frames else 40),
 		"frames": frames, "digits": found["digits"], "width": found["width"], "height": found["height"], "suffix": found["suffix"],
 		"cpus": values.get("--cpus", 1), "at_once": values.get("--nodes", 0), "sbatch": values["--sbatch"], "light": "--light" in values,
 		"pilot_time": values.get("--pilot-time", "10s"), "pilot_blocks": values.get("--pilot-blocks", 400), "setting": values.get("--setting", ""),
-		"equal_rows": "--equal-rows" in values, "may_write": "--scene-may-write" in values, "files": files_of(scene, options, found, targets),
+		"equal_rows": "--equal-rows" in values, "may_write": "--scene-may-write" in values, "files": files_of(scene, words, found, targets),
 		"input": found["input"], "libraries": [os.path.abspath(path) for path in found["libraries"]],
 		"before": {target: stamp(target) for target in targets if stamp(target)}, "output": output}
 
@@ -102,8 +101,7 @@ def _run_here(sub, tasks, at_once, script):
 	python = [sys.executable, script]
 	log = f"{sub['folder']}/log"
 	if load_cut(sub) is None and local.run_all([("pilot", python + ["--cut", sub["folder"]])], 1, log):
-		with open(f"{log}/pilot.txt", encoding="utf-8") as file:
-			raise refused(f"the pilot failed:\n{file.read().strip()}")
+		raise refused("the pilot failed:\n" + read_text(f"{log}/pilot.txt").strip())
 	tasks = [task for task in tasks if task < len(load_cut(sub)["tasks"])]
 	local.run_all([(f"part-{task}", python + ["--part", str(task), sub["folder"]]) for task in tasks], at_once, log)
 	join(sub, script)
@@ -117,16 +115,14 @@ def _run_there(sub, tasks, script):
 	options = sub["sbatch"]
 	threads = [f"--cpus-per-task={sub['cpus']}"]
 	pilot = None
-	with slurm.all_or_none(folder) as jobs:
+	with slurm.all_or_none() as jobs:
 		if load_cut(sub) is None:
-			pilot = slurm.sbatch(f"{name}-pilot", folder, "pilot.txt", words + ["--cut", shlex.quote(folder)], threads + options)
-			jobs.append(pilot)
+			pilot = slurm.sbatch(jobs, f"{name}-pilot", folder, "pilot.txt", words + ["--cut", shlex.quote(folder)], threads + options)
 		array = None
 		if tasks:
-			array = slurm.sbatch(f"{name}-parts", folder, "part-%a.txt", words + ["--part", '"$SLURM_ARRAY_TASK_ID"', shlex.quote(folder)],
+			array = slurm.sbatch(jobs, f"{name}-parts", folder, "part-%a.txt", words + ["--part", '"$SLURM_ARRAY_TASK_ID"', shlex.quote(folder)],
 				threads + options, array=tasks, at_once=sub["at_once"], after=pilot)
-			jobs.append(array)
-		jobs.append(slurm.sbatch(f"{name}-join", folder, "join.txt", words + ["--join", shlex.quote(folder)], options, after_any=array))
+		slurm.sbatch(jobs, f"{name}-join", folder, "join.txt", words + ["--join", shlex.quote(folder)], options, after_any=array)
 	ids = ",".join(jobs)
 	print(f"Jobs: {'pilot ' + pilot + ', ' if pilot else ''}{'parts ' + array + ', ' if array else ''}join {jobs[-1]}")
 	print(f"Watch:  squeue --jobs={ids}; {command(script, '--status', sub)}")

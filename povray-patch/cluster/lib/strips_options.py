@@ -3,6 +3,7 @@
 import re
 
 from common import usage
+from povray_options import is_switch
 from words import parse as parse_words
 
 HELP = """povray-strips: renders one picture, or a film, in parts: on a Slurm cluster, or on this machine with --local. The parts are strips of
@@ -35,7 +36,8 @@ Options:
   --join TEXT                 join this submission's parts, here
   --cut TEXT                  cut this submission's picture, here; the first job does so
 
-SCENE is a .pov or .ini file; what begins with one + or -, and NAME=value, goes to POV-Ray (+W +H +L +O +KFF Declare=..).
+SCENE is a .pov or .ini file; what begins with one + or -, and NAME=value, goes to POV-Ray (+W +H +L +O +KFF Declare=..),
+in the order that they have here: an option after an ini file wins over it, and one before it does not.
 Three jobs are submitted: the pilot, which cuts the picture; an array of the parts; and the join, which waits for all. Ids, how to watch and
 how to cancel are printed. A submission has a folder of its own beside the picture, PICTURE.strips/TIME-NUMBER; the scene's
 files, POV-Ray and that folder must be in the same place on all nodes.
@@ -64,14 +66,9 @@ FLAG = {"--dry-run", "--plan", "--light", "--equal-rows", "--scene-may-write"}
 ACTIONS = ("--status", "--resume", "--join", "--cut")
 
 
-def is_for_povray(word):
-	return bool(re.match(r"\+.|-[^-]|[A-Za-z_]+=", word)) and word != "-h"
-
-
 def parse(words):
-	"""Values by option, and under "own" the plain words, under "povray" POV-Ray's, in their order."""
-	values = parse_words("povray-strips", words, TEXT, NUMBER, FLAG, lists=("--sbatch",), is_other=is_for_povray, from_zero=("--part",))
-	values["povray"] = values.pop("other")
+	"""Values by option, and under "own" the plain words, under "other" POV-Ray's, under "all" both, in their order."""
+	values = parse_words("povray-strips", words, TEXT, NUMBER, FLAG, lists=("--sbatch",), is_other=is_switch, from_zero=("--part",))
 	return _checked(values)
 
 
@@ -83,7 +80,7 @@ def _checked(values):
 		if actions or len(values["own"]) != 1:
 			raise usage("--part NUMBER FOLDER, and nothing else")
 	elif actions:
-		if values["own"] or values["povray"]:
+		if values["all"]:
 			raise usage(f"{actions[0]} FOLDER: the scene and its options are those of the submission")
 	elif not values["own"]:
 		raise usage("SCENE is required; povray-strips --help shows examples")

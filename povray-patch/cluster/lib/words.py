@@ -7,9 +7,9 @@ from common import usage
 
 
 def parse(program, words, texts, numbers, flags, lists=(), is_other=lambda word: False, from_zero=()):
-	"""Values by option; under "own" the plain words, under "other" those that `is_other` knows. `lists` are texts that may be repeated,
+	"""Values by option; under "own" the plain words, under "other" those that `is_other` knows, under "all" both in their order. `lists` are texts that may be repeated,
 	each a list of words in one."""
-	values = {"own": [], "other": [], **{name: [] for name in lists}}
+	values = {"own": [], "other": [], "all": [], **{name: [] for name in lists}}
 	words = list(words)
 	while words:
 		word = words.pop(0)
@@ -17,6 +17,7 @@ def parse(program, words, texts, numbers, flags, lists=(), is_other=lambda word:
 			if word.startswith("-") and not is_other(word):
 				raise usage(f"no option {word}; {program} --help lists them")
 			values["other" if is_other(word) else "own"].append(word)
+			values["all"].append(word)
 			continue
 		name, equals, value = word.partition("=")
 		if name in flags and not equals:
