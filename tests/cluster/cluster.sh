@@ -120,7 +120,7 @@ submit)
 names)
 	# A folder of Latin-1: sbatch's words and script, logs, the command of the part that is missing.
 	export LC_ALL=C PYTHONIOENCODING=utf-8:strict
-	there=$(printf 'd\351 x'); mkdir "$there"; cd "$there"
+	there=$(printf 'd\351 100%%j x'); mkdir "$there"; cd "$there"
 	scene s.pov "$blur"; one one.png s.pov +W32 +H24
 	expect 0 s.pov +W32 +H24 --parts 2 --equal-rows; dir=$(folder); prints "$there/s.strips.*/log/"
 	await "end of the join" ended "$dir"

@@ -65,6 +65,7 @@ usage)
 	for word in +SR3 +ER9 +C Start_Row=3 +SF2 +SC4; do expect 2 s.pov --local 1 $word; says "'$word' is decided here"; done
 	expect 2 --join a b; says "those of the submission"
 	expect 3 --join nowhere; says "nowhere: no submission"
+	mkdir old; echo '{"id": "1", "scene": "s.pov"}' > old/submission.json; expect 1 --resume old; says "old: a submission of an earlier povray-strips; submit the scene again"
 	expect 3 nowhere.pov --local 1; says "nowhere.pov: no such file"
 	expect 3 s.pov --local 1 --povray ./nowhere; says "cannot be run"
 	expect 1 s.pov --local 1 +FP; says "are not joined; write PNG"

@@ -38,7 +38,7 @@ def index_list(numbers):
 def sbatch(jobs, name, folder, log, command, options, array=None, at_once=0, after=None, after_any=None):
 	"""Submits; the job's id, which is in `jobs` (all_or_none) and in jobs.json then. `command` is words, `log` a name below the folder's log/."""
 	words = ["sbatch", "--parsable", "--requeue", "--open-mode=append", f"--job-name={name}", f"--chdir={folder}",
-		f"--output={folder}/log/{log}", "--kill-on-invalid-dep=yes"]
+		f"--output={folder.replace('%', '%%')}/log/{log}", "--kill-on-invalid-dep=yes"]
 	if array is not None:
 		words.append(f"--array={index_list(array)}" + (f"%{at_once}" if at_once else ""))
 	if after:

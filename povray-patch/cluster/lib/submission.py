@@ -35,6 +35,8 @@ def load(folder):
 	values = read_json(f"{folder}/submission.json")
 	if values is None:
 		raise Failure(3, f"{folder}: no submission of povray-strips (there is no submission.json)")
+	if "words" not in values:
+		raise refused(f"{folder}: a submission of an earlier povray-strips; submit the scene again")
 	values["folder"] = os.path.abspath(folder)
 	return values
 
