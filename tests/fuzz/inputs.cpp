@@ -39,6 +39,7 @@ std::string JsonWithEffects()
 		json["effects"].push_back({ { "name", name }, { "used", true } });
 	json["vignetting"]["optical"] = { { "radius_mm", 14.5 }, { "distance_mm", 32.5 }, { "rims", { { { "radius_mm", 14.5 }, { "distance_mm", 32.5 } }, { { "radius_mm", 12 }, { "distance_mm", -20 } } } } };
 	json["chromatic"] = { { "lateral_red", 1e-4 }, { "lateral_blue", -1e-4 }, { "axial_red_per_mm", 1e-5 }, { "axial_blue_per_mm", 2e-5 } };
+	json["aperture_diameter_mm"] = 16;   // import knows none; blades widen a known one
 	json["blades"] = { { "count", 8 }, { "rotation_deg", 22.5 }, { "curvature", 0.5 }, { "aperture_diameter_mm", 16.5 } };
 	json["states"].push_back(json["states"][0]);
 	return json.dump(1, '\t') + "\n";
