@@ -78,6 +78,16 @@ std::optional<Row> RawAnswer(const Options& options, const std::vector<Row>& bes
 	return row;
 }
 
+/// One setting that is printed, with how sure it is.
+std::string SureText(const Pilot& pilot, const Machine& machine, Row row)
+{
+	std::vector<double> left_out;
+	if (row.setting.denoise)
+		pilot.PredictDenoised(row.setting, &left_out, SpreadParts);
+	row.spread = SpreadOf(pilot, machine, row.setting, left_out);
+	return AnswerText(row);
+}
+
 /// The answer, with denoise where that is better or cheaper, and then what there is without; nothing where none was asked.
 std::string Answer(const Options& options, const Pilot& pilot, const Machine& machine, const std::vector<Row>& all, const std::vector<Row>& best, std::optional<Row>& row)
 {
@@ -90,8 +100,8 @@ std::string Answer(const Options& options, const Pilot& pilot, const Machine& ma
 	else if (options.time > 0)
 		denoised = BestDenoisedWithin(pilot, machine, all, options.time);
 	if (!denoised || (options.time > 0 ? denoised->denoised_error >= row->predicted.error : denoised->wall >= row->wall))
-		return AnswerText(*row);
-	const std::string text = AnswerText(*denoised) + "Without denoise:\n" + AnswerText(*row);
+		return SureText(pilot, machine, *row);
+	const std::string text = SureText(pilot, machine, *denoised) + "Without denoise:\n" + SureText(pilot, machine, *row);
 	row = denoised;
 	return text;
 }

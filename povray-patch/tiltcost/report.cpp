@@ -137,12 +137,15 @@ std::string FramesText(const Report& report)
 
 std::string AnswerText(const Row& row)
 {
-	if (row.denoised_error > 0)
-		return fmt::format("{}\n  RMS error {:.5f}; {} rays, {:.1f} per pixel; {} ({} CPU)\n", SceneText(row.setting), row.denoised_error,
-			CountText(row.rays), row.rays_per_pixel, DurationText(row.wall), DurationText(row.cpu));
-	return fmt::format("{}\n", SceneText(row.setting)) + fmt::format("  RMS error {:.5f}{}, {:.2f} 8-bit levels; {} rays, {:.1f} per pixel; {} ({} CPU)\n", row.predicted.error,
-		row.predicted.extrapolated > MuchExtrapolated ? " (extrapolated)" : "", row.predicted.Levels(), CountText(row.rays),
-		row.rays_per_pixel, DurationText(row.wall), DurationText(row.cpu));
+	const bool denoised = row.denoised_error > 0;
+	std::string text = fmt::format("{}\n  RMS error {:.5f}", SceneText(row.setting), denoised ? row.denoised_error : row.predicted.error);
+	if (!denoised)
+		text += fmt::format("{}, {:.2f} 8-bit levels", row.predicted.extrapolated > MuchExtrapolated ? " (extrapolated)" : "", row.predicted.Levels());
+	text += fmt::format("; {} rays, {:.1f} per pixel; {} ({} CPU)\n", CountText(row.rays), row.rays_per_pixel, DurationText(row.wall), DurationText(row.cpu));
+	const double error = denoised ? row.spread.denoised : row.spread.error;
+	if (error > 0 || row.spread.seconds > 0)
+		text += fmt::format("  The error is known to {:.0f} %, the time to {:.0f} % (one standard deviation).\n", std::ceil(100 * error), std::ceil(100 * row.spread.seconds));
+	return text;
 }
 
 std::string CsvText(const Report& report)

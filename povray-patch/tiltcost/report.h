@@ -50,7 +50,7 @@ std::string TableText(const Report& report);
 /// What each of the film's frames that had a pilot costs and gives. Empty for one picture.
 std::string FramesText(const Report& report);
 
-/// One setting and what it costs, for --time and the like.
+/// One setting, what it costs and how surely (where its spread is known), for --time and the like.
 std::string AnswerText(const Row& row);
 
 std::string CsvText(const Report& report);

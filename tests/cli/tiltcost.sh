@@ -63,6 +63,7 @@ questions)
 	refuses 1 "coarsest" s.pov $small --time 0.001s
 	# The best of all settings with denoise and without, within the time; then the best without.
 	expect 0 s.pov +W640 +H480 +WT1 --pilot-time 1s --time 10s
+	[ "$(grep -c 'error is known to [1-9][0-9]* %, the time to [1-9][0-9]* % (one standard deviation)' out)" = 2 ] || fail "an answer does not say how sure it is"
 	prints "^Without denoise:"; head -1 out | grep -q 'tilt_lens { denoise }' || fail "the first answer is not denoised"
 	sed -n 's/^ *RMS error \([0-9.]*\).* per pixel; \([0-9.]*\) s .*/\1 \2/p' out |
 		awk '{ print; e[NR] = $1; late += $2 > 10 } END { exit !(NR == 2 && e[1] < e[2] && !late) }' || fail "late, or not the best first"
