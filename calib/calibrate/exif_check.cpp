@@ -145,15 +145,15 @@ std::vector<std::string> CompareWithExif(const Calibration& c)
 {
 	std::vector<std::string> words;
 	const PhotographFacts facts = CommonFacts(c.task);
-	const Solution& s = c.solution;
-	const double f = s.focal_length.value, d = s.aperture_diameter.value;
-	if (facts.focal_length_mm && f > 0 && std::abs(f / *facts.focal_length_mm - 1) > FAR_FOCAL_LENGTH + 3 * s.focal_length.sigma / f)
+	const Estimate &focal_length = c.RealLensIsUsed() ? c.real_lens->focal_length_mm : c.solution.focal_length, &aperture = c.RealLensIsUsed() ? c.real_lens->aperture_diameter_mm : c.solution.aperture_diameter;
+	const double f = focal_length.value, d = aperture.value;
+	if (facts.focal_length_mm && f > 0 && std::abs(f / *facts.focal_length_mm - 1) > FAR_FOCAL_LENGTH + 3 * focal_length.sigma / f)
 		words.push_back(fmt::format("focal length f {:.2f} +- {:.2f} mm, EXIF {:g} mm (engraved, rounded, for infinity; to compare with f, not with the image distance w {:.2f} mm). "
 			"Believe f if `pitch` is right and the photographs were not scaled, for f is proportional to the pitch; many lenses also shorten f when focused near. Else EXIF may be of another lens",
-			f, s.focal_length.sigma, *facts.focal_length_mm, s.w_mm.value));
+			f, focal_length.sigma, *facts.focal_length_mm, c.solution.w_mm.value));
 	if (const std::optional<double> told = FNumberOfReference(c.task); told && f > 0 && d > 0)
 	{
-		const double number = f / d, relative = std::hypot(s.focal_length.sigma / f, s.aperture_diameter.sigma / d);
+		const double number = f / d, relative = std::hypot(focal_length.sigma / f, aperture.sigma / d);
 		if (std::abs(std::log(number / *told)) > FAR_F_NUMBER + 3 * relative)
 			words.push_back(fmt::format("f-number f/d {:.2f} +- {:.2f}, EXIF {:.3g} (the marked stop, rounded). Believe d {:.2f} mm for rendering: it is what blurred these photographs; "
 				"but a wrong `transfer`, `pitch` or `square` shows here too, and a lens with its own aperture ring writes no f-number that is true", number, number * relative, *told, d));

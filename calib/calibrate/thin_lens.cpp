@@ -4,6 +4,7 @@
 
 #include "base/stopwatch.h"
 #include "calibrate/check_board.h"
+#include "calibrate/check_focus.h"
 #include "calibrate/check_photographs.h"
 #include "calibrate/check_untilted.h"
 #include "effects/effects.h"
@@ -144,6 +145,7 @@ void RefineAndCheck(const CalibrateOptions& o, Calibration& c)
 	AddBoardSize(c);
 	c.photographs = CheckPhotographs(c);
 	c.board_check = CheckBoard(c.task, c.geometry);
+	c.focus_check = CheckFocus(c);
 	c.untilted_check = CheckUntilted(c);
 }
 

@@ -4,6 +4,7 @@
 #include "calibrate/verdict_remarks.h"
 
 #include "calibrate/check_light.h"
+#include "calibrate/exif_check.h"
 #include "calibrate/left_over.h"
 #include "calibrate/one_photograph.h"
 #include "effects/effects.h"
@@ -66,6 +67,8 @@ public:
 			BlurAgainstGeometry(s);
 		}
 		Priors();
+		for (const std::string& text : CompareWithExif(c))
+			Say(Grade::FAIR, text);
 		Stops();
 		Correlations();
 		if (!explained)

@@ -62,6 +62,14 @@ std::string ShapeWords(const BoardCheck& b)
 	return words;
 }
 
+/// Aberrations act within every photograph: three numbers for each do not halve them. What a real lens explains is no focus that moved.
+bool FocusMoved(const Calibration& c)
+{
+	const FocusCheck& f = c.focus_check;
+	const double together = c.RealLensIsUsed() ? std::min(f.rms_together, c.real_lens->rms_blur) : f.rms_together;
+	return f.known && together > MOST_OF_NOISE * NoiseOfBlur(c.task) && f.rms_apart < DECIDES * together;
+}
+
 }
 
 std::vector<Remark> JudgePhotographs(const Calibration& c)
@@ -74,6 +82,10 @@ std::vector<Remark> JudgePhotographs(const Calibration& c)
 			remarks.push_back({ Grade::FAIR, fmt::format("{} and {} are the same photograph, noise and all: it is counted twice, and the sigmas are too small; leave one out",
 				FileOf(c.task, p.state, p.photo), FileOf(c.task, p.same_as->first, p.same_as->second)) });
 	}
+	if (FocusMoved(c))
+		remarks.push_back({ Grade::POOR, fmt::format("the blur fits to {:.2f} px with one plane of focus a state, to {:.2f} px with one for each photograph: the lens did not stand still between photographs of a state{}. "
+			"Switch autofocus off, touch neither focus nor tilt, and photograph again", c.focus_check.rms_together, c.focus_check.rms_apart,
+			JudgeLight(c.light).empty() ? "" : ", or what was done to the light makes it look so: mend the light first") });
 	return remarks;
 }
 

@@ -288,8 +288,9 @@ Calibration CalibrateRun::Solve(Task task, double expected_seconds) const
 	});
 	Calibration c = CalibrateWithPriors(task, known.priors.empty(), telling);
 	SpellAsOptions(c);
-	for (const std::string& text : CompareWithExif(c))
-		options.log.Warn(text);
+	if (!c.IsJudged())   // else the verdict says it
+		for (const std::string& text : CompareWithExif(c))
+			options.log.Warn(text);
 	return c;
 }
 

@@ -278,6 +278,8 @@ std::string CalibrationJson(const Calibration& c)
 		json["photographs"] = PhotographsJson(c);
 	if (c.board_check.known)
 		json["board_check"] = BoardCheckJson(c.board_check);
+	if (c.focus_check.known)
+		json["focus_check"] = { { "rms_together_px", c.focus_check.rms_together }, { "rms_apart_px", c.focus_check.rms_apart } };
 	if (c.untilted_check.known)
 	{
 		Put(json["untilted_check"], "lens_tilt", "_deg", c.untilted_check.lens_tilt);

@@ -38,8 +38,8 @@ const int JudgedBlock = 8;
 /// A pixel depends on others at most this far away.
 const int DenoiseReach = 24;
 
-/// Threads of a render that denoise at a time, each a band of rows of its own: a band takes 37 kB for a pixel of the picture's width,
-/// 48 kB where it is transparent.
+/// Threads of a render that denoise at a time, each a band of rows of its own: a band takes 32 kB for a pixel of the picture's width,
+/// 44 kB where it is transparent.
 const int DenoiseThreads = 4;
 const int DenoiseBand = 128;                ///< rows: enough that their margins hardly count
 

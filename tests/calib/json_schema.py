@@ -15,7 +15,7 @@ import jsonschema
 # Keys that a file may lack; all others are refused when they are gone.
 OPTIONAL = {
     "blades", "priors", "correlations", "real_lens", "scene_lens", "held_out_blur_px", "vignetting/optical", "vignetting/optical/rims", "vignetting/optical/second",
-    "tilt_told_by/blur_alone", "tilt_told_by/geometry_alone", "board_check", "untilted_check", "untilted_check/by_places", "photographs/0/fits_state", "photographs/0/same_as",
+    "tilt_told_by/blur_alone", "tilt_told_by/geometry_alone", "board_check", "focus_check", "untilted_check", "untilted_check/by_places", "photographs/0/fits_state", "photographs/0/same_as",
     "thin_model", "states/0/thin", "next_photographs", "stops", "render/stops", "real_lens/stops", "scene_lens/stops", "scene_lens/rms_asymmetry", "scene_lens/rms_hollowness", "states/0/photos/0/f_number", "render/states/0/photos/0/f_number",
 }
 # Objects whose keys are names, each of which may be missing.

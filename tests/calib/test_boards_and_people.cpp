@@ -72,7 +72,7 @@ TEST(BoardsAndPeople, NothingIsSaidOfAGoodSet)
 		const Calibration c = Calibrate(Named({ Photograph("untilted", Lens(), NoiseOf(seed)), Photograph("tilted", Tilted(5, 30), NoiseOf(seed + 1)) }), PLANE);
 		EXPECT_THAT(c.photographs, Each(AllOf(Field(&PhotographCheck::odd_blur, false), Field(&PhotographCheck::odd_places, false), Field(&PhotographCheck::same_as, std::nullopt))));
 		EXPECT_EQ(c.verdict.grade, Grade::GOOD) << Text(c.verdict);
-		for (const char* const word : { "board is not", "blur says", "same photograph", ".png", "touched between", "developed alike" })
+		for (const char* const word : { "board is not", "blur says", "same photograph", ".png", "touched between", "stand still", "developed alike" })
 			EXPECT_THAT(c.verdict.remarks, Not(Says(word)));
 		EXPECT_TRUE(c.board_check.known && c.untilted_check.known);
 		// Four numbers about nothing: 4 sigma each fail once in 4000 runs.
@@ -139,6 +139,33 @@ TEST(BoardsAndPeople, ATiltedPhotographAmongTheUntiltedIsNamedWithItsState)
 	const Verdict verdict = Judge(sharpened);
 	EXPECT_THAT(verdict.remarks.front().text, HasSubstr("were sharpened"));
 	EXPECT_THAT(verdict.remarks, Says("it fits the lens of state tilted: file it there"));
+}
+
+/// Each of them from a state of its own.
+State Mixed(const std::string& name, const std::vector<Lens>& lenses, unsigned seed)
+{
+	State state = Photograph(name, lenses[0], NoiseOf(seed));
+	for (size_t p = 0; p < state.photos.size(); ++p)
+		state.photos[p] = Photograph(name, lenses[p % lenses.size()], NoiseOf(seed + 1)).photos[p];
+	return state;
+}
+
+Lens Focused(Lens lens, double inverse_mm)
+{
+	lens.f = 1 / (1 / lens.f + inverse_mm);
+	return lens;
+}
+
+// By 5 % of 1/U and back, from one photograph to the next: an autofocus that hunts. Nobody stands out where all do.
+TEST(BoardsAndPeople, AFocusThatMovesBetweenPhotographsIsSaid)
+{
+	const double change = 0.05 / Lens().FocusDistance();
+	std::vector<State> states;
+	for (const Lens& lens : { Lens(), Tilted(5, 30) })
+		states.push_back(Mixed(states.empty() ? "untilted" : "tilted", { lens, Focused(lens, change), Focused(lens, -change) }, 51));
+	const Calibration c = Calibrate(Named(states), PLANE);
+	EXPECT_EQ(c.verdict.grade, Grade::POOR) << Text(c.verdict);
+	EXPECT_THAT(c.verdict.remarks, AllOf(Says("did not stand still"), Not(Says("aberrations")))) << Text(c.verdict);
 }
 
 // A telephoto's tilted photograph at the end of its range misfits the thin lens by 4.81 px of blur, the others by 0.85: aberrations, which a real lens has.

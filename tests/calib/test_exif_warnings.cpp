@@ -111,6 +111,7 @@ TEST(ExifWarnings, ReachWhoeverListensFromFiles)
 	EXPECT_THAT(heard.infos, Contains(HasSubstr("EXIF orientation is not applied")));
 	// Of f alone: the f-number is the camera's.
 	EXPECT_THAT(CompareWithExif(answer.calibration), ElementsAre(HasSubstr("focal length f")));
+	EXPECT_THAT(answer.calibration.verdict.remarks, Contains(AllOf(testing::Field(&Remark::grade, Grade::FAIR), testing::Field(&Remark::text, HasSubstr("EXIF")))));
 }
 
 }

@@ -294,6 +294,7 @@ struct Calibration
 	bool refined = true;         ///< false: the joint refinement was asked for and did not converge
 	std::vector<PhotographCheck> photographs;   ///< of the exact models
 	BoardCheck board_check;
+	FocusCheck focus_check;
 	UntiltedCheck untilted_check;
 	std::vector<StateLens> blur_alone;      ///< the same before the joint refinement: blur, with the geometry held
 	GeometryAlone geometry_alone;

@@ -50,6 +50,13 @@ struct BoardCheck
 	double w_change = 0;           ///< of the image distance, mm
 };
 
+/// RMS misfit of blur, px: with the plane of focus that the photographs of a state share, and with one for each photograph. Nothing else uses it.
+struct FocusCheck
+{
+	bool known = false;
+	double rms_together = 0, rms_apart = 0;
+};
+
 /// What blur says of the untilted state's tilt when it is let free.
 struct UntiltedCheck
 {

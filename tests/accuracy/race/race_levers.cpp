@@ -172,7 +172,8 @@ std::string SizesSection(const RaceReport& report, const fs::path& out)
 	if (sizes.size() < 2)
 		return "";
 	std::string text = "<h3>Larger pictures</h3>\n<p>Time of stock's best setting over ours, raw / best, geometric means over the errors above. Larger pictures of a scene have less in a pixel, "
-		"so that the same error takes fewer samples; below stock's least setting nothing can be gained. Curves: the pages behind the sizes.</p>\n<table><tr><th>scene</th>";
+		"so that the same error takes fewer samples; below stock's least setting nothing can be gained. The sizes are not of one region: the whole picture at the smallest, the middle half each way "
+		"at 640 x 360, the middle quarter at 1920 x 1080. Curves: the pages behind the sizes.</p>\n<table><tr><th>scene</th>";
 	for (const auto& size : sizes)
 		text += "<th>" + size.first + "</th>";
 	text += "</tr>\n";

@@ -282,7 +282,9 @@ void WritePage(const RaceReport& report, const fs::path& out, const fs::path& wo
 		"for pinholes as often as there are frames.</li>\n"
 		"<li>Curves are the lower left of all settings, convex in logarithms. &gt;: the opponent never got there, its last slope, or that of plain averaging "
 		"if steeper, is taken on; &lt;: the same for ours, with the flatter slope; ~: both.</li>\n"
-		"<li>Truths are the mean of independent sets of tilt_lens's fixed samples, and are checked against averaged pinholes of stock, which share no code with them.</li>\n"
+		"<li>Truths are the mean of independent sets of tilt_lens's fixed samples"
+		<< (report.settings.check_frames > 0 ? ", and are checked against averaged pinholes of stock, which share no code with them.</li>\n"
+			: "; those of the small pictures (160 x 120) are checked against averaged pinholes of stock.</li>\n")
 		<< (report.settings.judged_width < report.settings.width ? fmt::format("<li>Rendered, timed and judged are the {} x {} pixels in the middle.</li>\n",
 			report.settings.judged_width, report.settings.judged_height) : "")
 		<< (report.reused_stock ? "<li><b>Stock's times come from an earlier race</b>: not interleaved.</li>\n" : "") << "</ul>\n";
