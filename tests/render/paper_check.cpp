@@ -54,11 +54,11 @@ void CheckTilts(const Json& results)
 				Check(std::abs(error) > 0.5, "tilt " + std::string(state) + " by the paper's method is off by " + Said(error));
 		}
 	Check(results.at("tilt").at("methods").size() >= 6, "Table 1 has every method");
-	// Four sigma, and 0.02 degrees for the edges' own bias: calibrate_back.sh measures 0.016 in renders.
+	// Four sigma: the edges' own bias is in them.
 	for (const Json& n : results.at("closed_loop").at("numbers"))
 		if (std::string(n.at("name")).rfind("tilt_", 0) == 0)
 		{
-			const double error = std::abs(double(n.at("found")) - double(n.at("true"))), bound = 4 * double(n.at("sigma")) + 0.02;
+			const double error = std::abs(double(n.at("found")) - double(n.at("true"))), bound = 4 * double(n.at("sigma"));
 			Check(error < bound, "closed loop, " + std::string(n.at("what")) + ": off by " + Said(error) + ", bound " + Said(bound));
 		}
 }
@@ -68,9 +68,9 @@ void CheckTables(const Json& results)
 	for (const char* const state : STATES)
 		for (const char* const line : { "red", "green" })
 		{
-			// The project's limit for the gain is 5 with 16 samples and every edge (boxes.cmake); 32 samples' grain and 60 edges add 1 to 2.
+			// The project's promise, with 16 samples and every edge (boxes.cmake); 32 samples' grain and 60 edges may add 2.
 			const double error = results.at("brightness").at(state).at("gain").at(line);
-			Check(error > 0 && error < 8, "Table 2, " + std::string(state) + ", " + line + ": " + Said(error));
+			Check(error > 0 && error < 6, "Table 2, " + std::string(state) + ", " + line + ": " + Said(error));
 			// tiltcal profile and the ablation measure the same differences, each with its own code; the gain's last digits differ.
 			const double again = results.at("states").at(state).at(line).at("measured").at("gain").at("mean_abs");
 			Check(std::abs(error - again) < 0.01, "and by the ablation: " + Said(again));
@@ -106,7 +106,7 @@ void CheckAblation(const Json& results)
 		Check(beyond > 1, std::string(state) + ": beyond noise and grain " + Said(beyond));
 		// Nine photographs and 60 edges leave the principal point free by 0.7 px, and the closed loop's draw of it may be larger than the
 		// photographs': the share of the model, and of it that of the displacement, may then be below zero. What is left once both are
-		// displaced may not, beyond chance: a tenth of the whole, half of which is grain with 8 samples (measured: 4 % below).
+		// displaced may not, beyond chance: a tenth of the whole, half of which is grain with 8 samples.
 		for (const char* const part : { "calibration", "rest" })
 			Check(double(squares.at(part)) > -0.1 * whole, std::string(state) + ", " + part + ": " + Said(squares.at(part)) + " of " + Said(whole));
 		// Squares add: predicted from noise and calibration, and measured. They differ by the mean of the product, which falls with the root of

@@ -120,10 +120,10 @@ bound)
 				true=$("$compare" rms 1 tested.ppm truth.ppm | sed -n 's/^[^0-9]*\([0-9.][0-9.e-]*\).*/\1/p' | head -1)
 				echo "$kind, blur_samples $setting, seed $seed: said $said, is $true"
 				case $said in
-				">= "*) marked=$((marked + 1)) least=0 ;;
-				*) sure=$((sure + 1)) least=0.75 ;;
+				">= "*) marked=$((marked + 1)) least=0 most=1.03 ;; # no more than the truth, which is known to 0.75 %: four times that
+				*) sure=$((sure + 1)) least=0.75 most=1.25 ;;
 				esac
-				awk "BEGIN { r = ${said#>= } / $true; exit !(r > $least && r < 1.25) }" || fail "$kind, $setting, seed $seed: said $said, is $true"
+				awk "BEGIN { r = ${said#>= } / $true; exit !(r > $least && r < $most) }" || fail "$kind, $setting, seed $seed: said $said, is $true"
 			done
 		done
 	done
