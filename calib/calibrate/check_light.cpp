@@ -40,6 +40,12 @@ const double MOST_OF_SHARPENING = 2;
 /// Relative change of a blur's square, over the bend that is seen: a tone curve makes blurs, and the aperture, wrong by 1.7 times its bend
 /// (closed_loop --random 1 --first 3 --light tone-curve: 7 % and 0.043), squares by twice that.
 const double WIDTH_OF_BEND = 3.5;
+/// Of the contrast: what an unsharp mask of 1 px and an amount of 0.1 makes beside a sharp edge. Blur alone makes nothing: where no light is negative, an edge only rises.
+const double OVERSHOT = 0.005;
+/// px^2 of SHARPENED's kind: an unsharp mask of 1 px and 0.8 makes 0.055 of the one and up to 2.8 of the other (closed_loop --random 3 --light sharpened).
+const double SQUARES_OF_OVERSHOOT = 50;
+/// Where light overshoots beside an edge, px from the end of its blur: beyond the pixel's own width, and as wide as what sharpens reaches.
+const double BESIDE = 0.75, BESIDE_WIDE = 1.5;
 const double LEAST_REACH = 2;   // of ShiftOfExponent; edges whose neighbours lie nearer are fitted with those
 /// The power that its curve is like between middle grey and white: 2.4 c/(c + 0.055) at a code c of 0.8.
 const double SRGB_GAMMA = 2.25;
@@ -119,6 +125,56 @@ std::vector<Estimate> BendOfStates(const std::vector<size_t>& state, const std::
 	return bends;
 }
 
+/// Mean of the profile's pixels whose distances lie between `from` and `to`; NaN: none.
+double MeanBetween(const std::vector<ProfileBin>& profile, double from, double to)
+{
+	double sum = 0, count = 0;
+	for (const ProfileBin& bin : profile)
+		if (bin.x >= from && bin.x <= to)
+		{
+			sum += bin.value * bin.count;
+			count += bin.count;
+		}
+	return sum / count;
+}
+
+/// How far the light beside an edge goes beyond what it is farther off, over the edge's contrast, on both sides. NaN: not told.
+double OvershootOf(const Edge& e)
+{
+	const double R = 0.5 * std::max(e.blur, 0.0), near = R + BESIDE, far = near + BESIDE_WIDE, beyond = far + 1;
+	const auto step = [&](double from, double to) { return MeanBetween(e.profile, from, to) - MeanBetween(e.profile, -to, -from); };
+	return (step(near, far) - step(beyond, e.reach)) / (e.high - e.low);
+}
+
+/// Mean over the sharp edges, and its sigma by how photographs scatter. NaN where fewer than ENOUGH_SHARP tell.
+Estimate Overshoot(const Task& task)
+{
+	double sum = 0, count = 0;
+	std::vector<std::pair<double, double>> photographs;   // sum, count
+	for (const State& state : task.states)
+		for (const Photo& photo : state.photos)
+		{
+			double own = 0, edges = 0;
+			for (const Edge& e : photo.edges)
+				if (const double o = e.blur < SHARP ? OvershootOf(e) : NAN; std::isfinite(o))
+				{
+					own += o;
+					++edges;
+				}
+			if (edges > 0)
+				photographs.push_back({ own, edges });
+			sum += own;
+			count += edges;
+		}
+	const double unknown = std::numeric_limits<double>::quiet_NaN(), n = double(photographs.size());
+	if (count < ENOUGH_SHARP || photographs.size() < 2)
+		return { unknown, unknown };
+	double squares = 0;
+	for (const auto& [own, edges] : photographs)
+		squares += std::pow((own - edges * sum / count) / count, 2);
+	return { sum / count, std::sqrt(squares * n / (n - 1)) };
+}
+
 int SharpEdges(const Task& task)
 {
 	int sharp = 0;
@@ -133,6 +189,7 @@ LightCheck CheckLight(const Calibration& c)
 	LightCheck light;
 	const double unknown = std::numeric_limits<double>::quiet_NaN();
 	light.sharpening = SharpEdges(c.task) < ENOUGH_SHARP ? Estimate{ unknown, unknown } : Estimate{ -c.solution.psf_floor_squared.value, c.solution.psf_floor_squared.sigma };
+	light.overshoot = Overshoot(c.task);
 	const std::vector<double> shifts = ShiftsOf(c);
 	auto shift = shifts.begin();
 	std::vector<double> slopes, weights;
@@ -168,7 +225,33 @@ LightCheck CheckLight(const Calibration& c)
 	return light;
 }
 
-bool SharpeningIsSeen(const LightCheck& light) { return light.sharpening.value > SHARPENED && light.sharpening.value > CERTAIN * light.sharpening.sigma; }
+namespace
+{
+
+bool SteepnessIsSeen(const LightCheck& light) { return light.sharpening.value > SHARPENED && light.sharpening.value > CERTAIN * light.sharpening.sigma; }
+
+bool OvershootIsSeen(const LightCheck& light) { return light.overshoot.value > OVERSHOT && light.overshoot.value > CERTAIN * light.overshoot.sigma; }
+
+/// What sharpening takes off the squares of blurs, px^2: a demosaicing, or the lens, may hide it in them, not in what overshoots.
+double SizeOfSharpening(const LightCheck& light)
+{
+	return std::max(SteepnessIsSeen(light) ? light.sharpening.value : 0, OvershootIsSeen(light) ? SQUARES_OF_OVERSHOOT * light.overshoot.value : 0);
+}
+
+Remark SharpeningRemark(const LightCheck& light)
+{
+	std::string what;
+	if (SteepnessIsSeen(light))
+		what = fmt::format("sharp edges are steeper than their pixels can make them (by {:.2f} +- {:.2f} px² of blur)", light.sharpening.value, light.sharpening.sigma);
+	if (OvershootIsSeen(light))
+		what += fmt::format("{}the light overshoots beside sharp edges, which no blur does (by {:.1f} +- {:.1f} % of their contrast)", what.empty() ? "" : ", and ", 100 * light.overshoot.value, 100 * light.overshoot.sigma);
+	return { SizeOfSharpening(light) > 10 * SHARPENED ? Grade::POOR : Grade::FAIR, what + ": the photographs were sharpened, or given contrast, which makes blur, aperture and tilt wrong. "
+		"Develop the raw files without sharpening, or set the camera's sharpness and contrast to their least" };
+}
+
+}
+
+bool SharpeningIsSeen(const LightCheck& light) { return SteepnessIsSeen(light) || OvershootIsSeen(light); }
 
 bool BendIsSeen(const LightCheck& light) { return std::abs(light.bend.value) > BENT && std::abs(light.bend.value) > CERTAIN * light.bend.sigma; }
 
@@ -189,7 +272,7 @@ std::vector<Remark> JudgeLightOfStates(const Calibration& c)
 
 bool LightMayExplain(const Calibration& c, const PhotographCheck& photograph)
 {
-	const double sharpened = SharpeningIsSeen(c.light) ? c.light.sharpening.value : 0, bent = BendIsSeen(c.light) ? std::abs(c.light.bend.value) : 0;
+	const double sharpened = SizeOfSharpening(c.light), bent = BendIsSeen(c.light) ? std::abs(c.light.bend.value) : 0;
 	double misfit = 0, light = 0;
 	for (const Edge& e : c.task.states[photograph.state].photos[photograph.photo].edges)
 	{
@@ -208,9 +291,7 @@ std::vector<Remark> JudgeLight(const LightCheck& light)
 			"the aperture, too small: expose less, so that the board's white stays below the file's greatest value in every colour", 100 * light.clipped_share) } };
 	std::vector<Remark> remarks;
 	if (SharpeningIsSeen(light))
-		remarks.push_back({ light.sharpening.value > 10 * SHARPENED ? Grade::POOR : Grade::FAIR, fmt::format("sharp edges are steeper than their pixels can make them (by {:.2f} +- {:.2f} px² of blur): "
-			"the photographs were sharpened, or given contrast, which makes blur, aperture and tilt wrong. Develop the raw files without sharpening, or set the camera's sharpness and contrast to their least",
-			light.sharpening.value, light.sharpening.sigma) });
+		remarks.push_back(SharpeningRemark(light));
 	if (BendIsSeen(light))
 	{
 		const std::string power = !light.exponent ? "" : fmt::format(". As if they were light to the power {:.3f} +- {:.3f}: a `transfer` of {:.2f} in place of srgb, or of what was told over {:.3f}, "

@@ -296,6 +296,7 @@ std::string CalibrationJson(const Calibration& c)
 	{
 		json["light"]["clipped_edges_share"] = c.light.clipped_share;
 		Put(json["light"], "sharpening", "_px2", c.light.sharpening);
+		Put(json["light"], "overshoot", "", c.light.overshoot);
 		Put(json["light"], "bend", "", c.light.bend);
 		const double unknown = std::numeric_limits<double>::quiet_NaN();
 		Put(json["light"], "exponent", "", c.light.exponent.value_or(Estimate{ unknown, unknown }));

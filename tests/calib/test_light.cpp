@@ -50,6 +50,7 @@ TEST(Light, LinearLightIsGood)
 	EXPECT_EQ(c.light.clipped_share, 0);
 	EXPECT_TRUE(JudgeLight(c.light).empty());
 	EXPECT_TRUE(JudgeLightOfStates(c).empty());
+	EXPECT_EQ(c.verdict.grade, Grade::GOOD);   // what is developed otherwise below is not good for that alone
 	// By the real lens's places where that is the answer: here 0.03 of each radius to the bright side.
 	Calibration real = c;
 	real.real_lens.emplace();
@@ -60,7 +61,27 @@ TEST(Light, LinearLightIsGood)
 }
 
 // Each biases blur by more than its sigma (the aperture by 7 to 25 %), so none may be good.
-TEST(Light, SharpenedIsSaid) { EXPECT_GT(Developed("sharpened").verdict.grade, Grade::GOOD); }
+TEST(Light, SharpenedIsSaid)
+{
+	const Calibration c = Developed("sharpened");
+	EXPECT_GT(c.verdict.grade, Grade::GOOD);
+	ASSERT_FALSE(c.verdict.remarks.empty());
+	EXPECT_NE(c.verdict.remarks[0].text.find("the photographs were sharpened"), std::string::npos) << c.verdict.remarks[0].text;
+}
+
+// The demosaicing blurs more than the sharpening takes off, so that edges are no steeper than they can be; but they overshoot.
+TEST(Light, SharpeningIsSaidBehindAMosaic)
+{
+	const Calibration c = Developed("sharpened-bayer");
+	EXPECT_LT(c.light.sharpening.value, 0);
+	EXPECT_GT(c.light.overshoot.value, 3 * c.light.overshoot.sigma);
+	EXPECT_GT(c.verdict.grade, Grade::GOOD);
+	ASSERT_FALSE(c.verdict.remarks.empty());
+	EXPECT_NE(c.verdict.remarks[0].text.find("overshoots beside sharp edges"), std::string::npos) << c.verdict.remarks[0].text;
+	// A blur that is nowhere negative leaves edges that only rise, JPEG's ringing aside.
+	for (const char* light : { "bayer", "bayer-jpeg" })
+		EXPECT_TRUE(JudgeLight(Developed(light).light).empty()) << light;
+}
 
 // As a camera's own JPEGs have them, each beside the other; and clipped at the file's own full scale.
 TEST(Light, WhatCamerasCookIsSaid)

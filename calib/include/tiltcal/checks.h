@@ -22,6 +22,7 @@ struct LightCheck
 {
 	double clipped_share = 0;   ///< of the edges: their bright side is at the file's white level
 	Estimate sharpening;        ///< px^2: how much smaller squared blur diameters are than blur can make them
+	Estimate overshoot;         ///< of light beside sharp edges, over their contrast: nothing where it was only blurred; NaN where too few are sharp, or their profiles were not kept
 	/// How far blurred edges lie to the bright side of where the camera puts them, over their blur's radius: 0 in linear light.
 	Estimate bend;
 	std::vector<Estimate> bend_of_states;   ///< the same of each state; empty: too few photographs

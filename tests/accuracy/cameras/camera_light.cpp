@@ -103,6 +103,7 @@ std::vector<Light> AllLights()
 		with("tone-curve", [](Light& l) { l.tone_curve = 0.5; }),
 		with("power-0.8", [](Light& l) { l.power = 0.8; }),
 		with("power-1.2", [](Light& l) { l.power = 1.2; }),
+		with("sharpened-bayer", [](Light& l) { l.sharpen = 0.4; l.mosaic = true; l.snr = 100; }),
 		with("sharpened-tone-curve", [](Light& l) { l.sharpen = 0.8; l.tone_curve = 0.5; }),
 		with("cooked-jpeg", [](Light& l) { l.sharpen = 0.5; l.tone_curve = 0.3; l.jpeg = l.mosaic = true; l.snr = 100; }),
 	};
