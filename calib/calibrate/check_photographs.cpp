@@ -22,8 +22,8 @@ const double STANDS_OUT = 5;
 /// px; below it nothing in a render is moved or blurred visibly.
 const double MATTERS = 0.1;
 
-/// The same pixels give the same numbers; two exposures of a board that stood still differ by their noise, 1.41 sigma RMS.
-const double SAME_IN_SIGMAS = 0.35;
+/// The same pixels give the same numbers, encoded anew they keep their noise and get a little; two exposures of a board that stood still differ by their noise, 1.41 sigma RMS. Half of that.
+const double SAME_IN_SIGMAS = 0.7;
 
 bool StandsOut(double rms, double typical) { return rms > STANDS_OUT * typical + MATTERS; }
 

@@ -254,6 +254,14 @@ TEST(BoardsAndPeople, TheSamePhotographTwiceIsSeenAndABoardThatStoodStillIsNot)
 	EXPECT_EQ(c.verdict.grade, Grade::FAIR);
 	EXPECT_THAT(c.verdict.remarks, Says("tilted-7.png and tilted-2.png are the same photograph"));
 
+	// Encoded anew, which moves what is measured by half of its sigma.
+	int sign = 1;
+	for (Edge& e : twice.photos.back().edges)
+		e.blur += (sign = -sign) * 0.5 * e.blur_sigma;
+	for (Corner& corner : twice.photos.back().corners)
+		corner.x += (sign = -sign) * 0.5 * corner.sigma;
+	EXPECT_THAT(Calibrate(Named({ Photograph("untilted", Lens(), NoiseOf(9)), twice }), PLANE).verdict.remarks, Says("tilted-7.png and tilted-2.png are the same photograph"));
+
 	State still = Photograph("tilted", Tilted(5), NoiseOf(8));
 	still.photos.push_back(Photograph("tilted", Tilted(5), NoiseOf(10)).photos[1]);
 	EXPECT_THAT(Calibrate(Named({ Photograph("untilted", Lens(), NoiseOf(9)), still }), PLANE).verdict.remarks, Not(Says("same photograph")));
