@@ -29,7 +29,7 @@ Unknowns FreePlanes(const Solution& s, LensModel model)
 	return x;
 }
 
-bool StandsOut(const Calibration& c, size_t state, size_t photo)
+bool IsOdd(const Calibration& c, size_t state, size_t photo)
 {
 	return std::any_of(c.photographs.begin(), c.photographs.end(), [&](const PhotographCheck& p) { return p.state == state && p.photo == photo && p.odd_blur; });
 }
@@ -64,7 +64,7 @@ FocusCheck CheckFocus(const Calibration& c)
 	const LensModel model = HasFreePlanes(s.lens) ? s.lens : LensModel::PLANE;
 	std::vector<std::map<size_t, std::vector<Observation>>> states(c.task.states.size());
 	for (const Observation& o : Observe(c.task, c.geometry))
-		if (!StandsOut(c, o.state, o.photo))
+		if (!IsOdd(c, o.state, o.photo))
 			states[o.state][o.photo].push_back(o);
 	double edges = 0, together = 0, apart = 0;
 	size_t seen = 0;

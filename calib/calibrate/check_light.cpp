@@ -146,33 +146,46 @@ double OvershootOf(const Edge& e)
 	return (step(near, far) - step(beyond, e.reach)) / (e.high - e.low);
 }
 
-/// Mean over the sharp edges, and its sigma by how photographs scatter. NaN where fewer than ENOUGH_SHARP tell.
+/// Mean of what photographs say, by their weights. They differ by more than their edges' noise: they are the independent draws, by which sigma goes. NaN of fewer than two, or without weight.
+Estimate MeanOfPhotographs(const std::vector<double>& values, const std::vector<double>& weights)
+{
+	const double unknown = std::numeric_limits<double>::quiet_NaN(), n = double(values.size());
+	double sum = 0, all = 0, squares = 0;
+	for (size_t k = 0; k < values.size(); ++k)
+	{
+		sum += weights[k] * values[k];
+		all += weights[k];
+	}
+	if (!(all > 0) || n < 2)
+		return { unknown, unknown };
+	for (size_t k = 0; k < values.size(); ++k)
+		squares += std::pow(weights[k] / all * (values[k] - sum / all), 2);
+	return { sum / all, std::sqrt(squares * n / (n - 1)) };
+}
+
+/// Mean over the sharp edges. NaN where fewer than ENOUGH_SHARP, or one photograph, tell.
 Estimate Overshoot(const Task& task)
 {
-	double sum = 0, count = 0;
-	std::vector<std::pair<double, double>> photographs;   // sum, count
+	double all = 0;
+	std::vector<double> means, edges;   // of photographs
 	for (const State& state : task.states)
 		for (const Photo& photo : state.photos)
 		{
-			double own = 0, edges = 0;
+			double sum = 0, count = 0;
 			for (const Edge& e : photo.edges)
 				if (const double o = e.blur < SHARP ? OvershootOf(e) : NAN; std::isfinite(o))
 				{
-					own += o;
-					++edges;
+					sum += o;
+					++count;
 				}
-			if (edges > 0)
-				photographs.push_back({ own, edges });
-			sum += own;
-			count += edges;
+			all += count;
+			if (count > 0)
+			{
+				means.push_back(sum / count);
+				edges.push_back(count);
+			}
 		}
-	const double unknown = std::numeric_limits<double>::quiet_NaN(), n = double(photographs.size());
-	if (count < ENOUGH_SHARP || photographs.size() < 2)
-		return { unknown, unknown };
-	double squares = 0;
-	for (const auto& [own, edges] : photographs)
-		squares += std::pow((own - edges * sum / count) / count, 2);
-	return { sum / count, std::sqrt(squares * n / (n - 1)) };
+	return all < ENOUGH_SHARP ? Estimate{ NAN, NAN } : MeanOfPhotographs(means, edges);
 }
 
 int SharpEdges(const Task& task)
@@ -207,19 +220,10 @@ LightCheck CheckLight(const Calibration& c)
 			state.push_back(s);
 		}
 	light.clipped_share = edges > 0 ? clipped / edges : 0;
-	double sum = 0, all = 0, squares = 0;
-	for (size_t k = 0; k < slopes.size(); ++k)
-	{
-		sum += weights[k] * slopes[k];
-		all += weights[k];
-	}
-	if (!(all > 0) || slopes.size() < 2)
+	const Estimate bend = MeanOfPhotographs(slopes, weights);
+	if (!std::isfinite(bend.value))
 		return light;
-	light.bend.value = sum / all;
-	// Photographs differ by more than their edges' noise: they are the independent draws.
-	for (size_t k = 0; k < slopes.size(); ++k)
-		squares += std::pow(weights[k] / all * (slopes[k] - light.bend.value), 2);
-	light.bend.sigma = std::sqrt(squares * double(slopes.size()) / double(slopes.size() - 1));
+	light.bend = bend;
 	light.exponent = ExponentOf(c, light.bend);
 	light.bend_of_states = BendOfStates(state, slopes, weights);
 	return light;

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
 #include "lens/denoise.h"
 #include "lens/kernels.h"
@@ -427,49 +426,3 @@ TEST(Kernels, RowsAreReflectedAboutTheirEnds)
 	EXPECT_EQ(Reflected(-16, 1), 0);
 	EXPECT_EQ(Reflected(17, 2), 1);
 }
-
-// What REFERENCE.md says: 16 floats, 64 bytes a pixel.
-TEST(Denoise, KeepsSixteenFloatsAPixel)
-{
-	NoisyPicture p;
-	p.Resize(10, 7);
-	size_t floats = p.count.size();
-	for(const auto& plane : p.mean)
-		floats += plane.size();
-	for(const auto& plane : p.first)
-		floats += plane.size();
-	floats += 70 * PictureChannels;         // denoised (tilt_lens/denoised_picture.h)
-	EXPECT_EQ(floats * sizeof(float), 70u * 64u);
-}
-
-#ifndef __SANITIZE_ADDRESS__
-// REFERENCE.md says so: 32 and 44 kB for a pixel of the width, of which allocation takes back or adds a twentieth at the most.
-TEST(Denoise, BandsTakeTheMemoryThatIsSaid)
-{
-	const auto peak = []
-	{
-		rusage usage;
-		getrusage(RUSAGE_SELF, &usage);
-		return 1024.0 * double(usage.ru_maxrss);
-	};
-	const auto black = [](int, int) { return 0.0; };
-	for(const bool transparent : { false, true })
-	{
-		NoisyPicture p = Noisy(2000, 2 * DenoiseBand + 20, 0.05, black);
-		if(transparent)
-			for(int c : { 3, 4 })
-			{
-				p.mean[c] = p.mean[0];
-				p.first[c] = p.first[0];
-			}
-		std::vector<float> denoised[PictureChannels];
-		for(auto& plane : denoised)
-			plane.assign(p.count.size(), 1.0f);
-		const double before = peak();
-		DenoiseRows(p, DenoiseBand, 2 * DenoiseBand - 1, denoised);
-		// The transparent one's memory begins where the opaque one's ended.
-		const double said = transparent ? 44e3 - 32e3 : 32e3;
-		EXPECT_NEAR((peak() - before) / p.width, said, 0.05 * (transparent ? 44e3 : 32e3));
-	}
-}
-#endif
