@@ -1,9 +1,9 @@
 #!/bin/sh
-# usage: files.sh CASE TILTCAL PHOTOS WORK [PYTHON] [COMMA_LOCALE]
+# usage: files.sh CASE TILTCAL PHOTOS WORK [PYTHON] [COMMA_LOCALE] [WATCHED_DISK]
 # Names, places and disks that files may have: names in other encodings, links, devices, full disks, more than 2 GB. Runs one case
 # in a fresh folder WORK; exits 0 when the program behaved as documented.
 set -u
-case=$1 tiltcal=$2 photos=$3 work=$4 python=${5-python3} comma=${6-}
+case=$1 tiltcal=$2 photos=$3 work=$4 python=${5-python3} comma=${6-} watched=${7-}
 rm -rf "$work" && mkdir -p "$work" && cd "$work" || exit 99
 target=$photos/target
 
@@ -199,6 +199,45 @@ full_disk)
 	small pose --calibration camera.json --points points.csv --photo "$target/untilted-1.jpg" --overlay old.png --out old.inc
 	[ "$(cat old.inc old.png)" = "$(printf 'old\nold')" ] || fail "a set half-way"
 	mkdir result; small profile "$target/untilted-1.jpg" "$target/untilted-1.jpg" --line 0,660,1799,660 --out result; [ -z "$(ls -A result)" ] || fail "profile half-way" ;;
+synced) # what takes a name is on the disk before; a disk that fails leaves the old set
+	on_disk() { # ARGUMENT... : with the disk's calls in the file calls
+		: >calls
+		(export WATCHED_DISK="$PWD/calls" LD_PRELOAD="$watched"; exec "$tiltcal" "$@" >out 2>err)
+	}
+	# Files that are put aside or come back were on the disk already; here every temporary name is one of new text.
+	in_order() { # LEAST
+		"$python" - "$1" <<-'END' || fail "not on the disk before it took its name"
+		import os, sys
+		synced, folders, renamed = set(), set(), 0
+		for line in open("calls"):
+		    call, _, rest = line.rstrip("\n").partition(" ")
+		    if call == "fsync":
+		        synced.add(os.path.realpath(rest))
+		        continue
+		    start, end = (os.path.realpath(name) for name in rest.split("\t"))
+		    if os.path.basename(start).startswith(".tiltcal"):
+		        renamed += 1
+		        folders.add(os.path.dirname(end))
+		        if start not in synced:
+		            sys.exit(f"{end}: renamed before fsync")
+		        synced -= folders
+		if renamed < int(sys.argv[1]) or not folders <= synced:
+		    sys.exit(f"{renamed} files; folders not synced after: {folders - synced}")
+		END
+	}
+	camera; mkdir result
+	on_disk import camera.yml --pitch 0.02 --out alone.json || fail "import"
+	in_order 1
+	on_disk $calibrate --untilted "$target/untilted-[1-3].jpg" --tilted plus5="$target/plus5-[1-3].jpg" --out result || fail "calibrate"
+	in_order 10
+	find result -type f -exec cksum {} + | sort >before
+	syncs=$(grep -c '^fsync .*/\.tiltcal' calls)
+	for failing in 1 $((syncs / 2)) "$syncs"; do
+		(export WATCHED_DISK_FAILS=$failing; on_disk $calibrate --untilted "$target/untilted-[2-4].jpg" --tilted plus5="$target/plus5-[1-3].jpg" --out result; echo $? >code)
+		[ "$(cat code)" = 3 ] || fail "exit code $(cat code) where fsync $failing failed"
+		says "result/.*cannot be written (Input/output error)"; nothing_left
+		find result -type f -exec cksum {} + | sort >after; same before after
+	done ;;
 locale) # of a decimal comma, in the environment and set by a preloaded library (test_locale.cpp: by a program that hosts ours)
 	mkdir locales; localedef -i de_DE -f UTF-8 locales/de_DE.UTF-8 || fail "no locale could be made; cmake/setup.sh installs the package locales"
 	camera

@@ -54,6 +54,24 @@ const Case cases[] = {
 	{"mirror", "area_light <2, 0, 0>, <0, 0, 2>, 5, 4", "plane { z, 2.5 pigment { rgb 0 } finish { ambient 0 diffuse 0 reflection 0.9 } }"},
 	{"filter", "area_light <2, 0, 0>, <0, 0, 2>, 5, 4 spotlight point_at <0, 0, 0.5> radius 20 falloff 35",
 		"box { <-2, 1.5, -0.5>, <0.2, 1.6, 1> rotate <3, 17, 5> pigment { rgbf <1, 0.6, 0.2, 0.8> } finish { ambient 0 diffuse 0 } }"},
+	// Lights of groups beside those of all; in one group the others count too. Edges aslant: those along a row lie between stock's sub-pixels alike in all of a block.
+	{"groups", "area_light <2, 0, 0>, <0, 0, 2>, 5, 4",
+		"light_group {\n"
+		"	light_source { <1.5, 3, -1> rgb <0.6, 0.3, 0.1> area_light <1.5, 0, 0>, <0, 0, 1>, 4, 3 jitter }\n"
+		"	box { <-0.1, 0.01, -0.9>, <1.4, 0.02, 0.3> rotate 17 * y pigment { rgb 0.7 } finish { F } }\n"
+		"	cylinder { <0.3, 0.6, -0.9>, <1.1, 0.5, 0.3>, 0.03 pigment { rgb 0.5 } finish { F } }\n"
+		"	global_lights on\n"
+		"}\n"
+		"light_group {\n"
+		"	light_source { <-1.4, 2.5, -1.5> rgb <0.1, 0.4, 0.7> area_light <1, 0, 0>, <0, 0, 1>, 5, 5 circular orient }\n"
+		"	box { <-1.5, 0.01, -1>, <-0.3, 0.02, 0> rotate 17 * y pigment { rgb 0.8 } finish { F } }\n"
+		"	cylinder { <-1.4, 0.5, -0.8>, <-0.4, 0.6, -0.4>, 0.03 pigment { rgb 0.5 } finish { F } }\n"
+		"}"},
+	// Photons are shot before the camera is asked, by both alike: what is looked up of them has no noise of its own here.
+	{"photons", "area_light <2, 0, 0>, <0, 0, 2>, 5, 4",
+		"global_settings { photons { spacing 0.08 } }\n"
+		"sphere { <0.2, 0.5, -0.6>, 0.4 pigment { rgbt <0.95, 0.97, 1, 0.95> } finish { ambient 0 diffuse 0.1 reflection 0.05 } interior { ior 1.5 }\n"
+		"	photons { target refraction on reflection off } }"},
 	{"word", "area_light <2, 0, 0>, <0, 0, 1.4>, 3, 5", "", true},
 	{"word_adaptive", "area_light <2, 0, 0>, <0, 0, 2>, 9, 6 adaptive 0", "", true},
 	{"word_jitter", "area_light <2, 0, 0>, <0, 0, 2>, 5, 5 adaptive 1 circular orient jitter", "", true},

@@ -128,7 +128,7 @@ public:
 	void Again(const Setting& setting, int repeat)
 	{
 		for (RacePoint& point : contest.points[setting.opponent])
-			if (Label(point.setting) == Label(setting))
+			if (Label(point.setting) == Label(setting) && (repeat < settings.repeats || point.times.front() < settings.short_run))
 				point.times.push_back(Net(Render(setting, repeat), setting));
 	}
 
@@ -314,12 +314,12 @@ Contest RunContest(const Renderer& renderer, const RaceScene& scene, bool tilted
 
 	std::vector<Setting> order = Interleaved(settings, !tilted, scene.area_lights);
 	Measurement measurement(contest, renderer, settings, reuse_stock, tilted ? nullptr : &limit);
-	for (int repeat = 0; repeat < settings.repeats; ++repeat)
+	for (int repeat = 0; repeat < settings.short_repeats; ++repeat)
 	{
 		for (std::size_t i = 0; i < order.size(); ++i)
 		{
 			if (i % 8 == 0)
-				say(fmt::format("pass {} of {}, run {} of {}", repeat + 1, settings.repeats, i + 1, order.size()));
+				say(fmt::format("pass {} of {}{}, run {} of {}", repeat + 1, settings.short_repeats, repeat < settings.repeats ? "" : ", of short runs", i + 1, order.size()));
 			repeat == 0 ? measurement.First(order[i]) : measurement.Again(order[i], repeat);
 		}
 		if (repeat == 0)

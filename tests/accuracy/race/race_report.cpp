@@ -251,7 +251,8 @@ double MedianSpread(const RaceReport& report)
 	for (const Contest& contest : report.contests)
 		for (const auto& [opponent, list] : contest.points)
 			for (const RacePoint& point : list)
-				spreads.push_back(point.Spread());
+				if (point.times.size() > 1)
+					spreads.push_back(point.Spread());
 	std::sort(spreads.begin(), spreads.end());
 	return spreads.empty() ? 0 : spreads[spreads.size() / 2];
 }
@@ -277,7 +278,8 @@ void WritePage(const RaceReport& report, const fs::path& out, const fs::path& wo
 		"<li>RMS error over pixels and channels, linear light, 16 bits, clipped at 1. relMSE is mean((x &minus; t)&sup2; / (t&sup2; + 0.01)).</li>\n"
 		"<li>Each stock picture is judged by the smallest of three errors: against the truth; against the truth moved by the part of a pixel that suits it best; "
 		"against stock's own limit, less the limit's own noise. Its sampling errors are thus not held against it.</li>\n"
-		"<li>CPU time, user and system, one thread, the least of " << report.settings.repeats << " runs, opponents by turns there and back"
+		"<li>CPU time, user and system, one thread, the least of " << report.settings.repeats << " runs"
+		<< (report.settings.short_repeats > report.settings.repeats ? fmt::format(" ({} of those below {} s)", report.settings.short_repeats, report.settings.short_run) : "") << ", opponents by turns there and back"
 		<< fmt::format(" (median spread {:.1f}&thinsp;%)", 100 * MedianSpread(report)) << "; the time of a run that traces one pixel of the same picture is taken off for all, "
 		"for pinholes as often as there are frames.</li>\n"
 		"<li>Curves are the lower left of all settings, convex in logarithms. &gt;: the opponent never got there, its last slope, or that of plain averaging "

@@ -130,6 +130,8 @@ try
 	settings.judged_width = judged[0];
 	settings.judged_height = judged[1];
 	settings.repeats = j.at("repeats");
+	settings.short_repeats = std::max(settings.repeats, j.value("short_repeats", 0));
+	settings.short_run = j.value("short_run", 0.0);
 	settings.longest_run = j.at("longest_run");
 	settings.enough = j.at("enough");
 	settings.reference_samples = j.at("reference_samples");

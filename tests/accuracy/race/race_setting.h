@@ -48,6 +48,8 @@ struct RaceSettings
 	int width = 0, height = 0;
 	int judged_width = 0, judged_height = 0; // of the part in the middle that is rendered, timed and judged
 	int repeats = 0;
+	int short_repeats = 0; // of settings that take less than short_run CPU seconds, whose runs scatter most; never fewer than the others
+	double short_run = 0;
 	double longest_run = 0; // CPU seconds; settings that would need more are left out
 	double enough = 0; // an opponent's ladder of fixed N ends below this error
 	int reference_samples = 0, reference_seeds = 0; // samples of one set, sets at most
