@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 
 #include "lens/pilot.h"
 
@@ -16,16 +17,26 @@ PilotRequest ParsePilotRequest(const char *text)
 	int at = 0;
 
 	if((text != nullptr) && (std::sscanf(text, "%d,%d,%lf,%n", &request.blocks, &request.samples, &request.seconds, &at) == 3) && (at > 0) &&
-	   (request.blocks > 0) && (request.samples > 1) && ((request.samples & (request.samples - 1)) == 0) && (request.seconds > 0.0) && (text[at] != '\0'))
+	   (request.blocks > 0) && (request.samples > 0) && ((request.samples & (request.samples - 1)) == 0) && (request.seconds > 0.0) && (text[at] != '\0'))
 		request.file = text + at;
 	else
 		request.blocks = 0;
 	return request;
 }
 
+PilotRequest PilotOfEnvironment()
+{
+	PilotRequest request = ParsePilotRequest(std::getenv(PilotVariable));
+	const char *const chosen = std::getenv(PilotBlocksVariable);
+
+	if(chosen != nullptr)
+		request.chosen = chosen;
+	return request;
+}
+
 bool PilotIsOn()
 {
-	return bool(ParsePilotRequest(std::getenv(PilotVariable)));
+	return bool(PilotOfEnvironment());
 }
 
 bool PilotMayWrite()
@@ -55,6 +66,17 @@ std::vector<int> PilotBlocks(const PilotRequest& request, int width, int height,
 		chosen[block] = true;
 	};
 
+	if(!request.chosen.empty())
+	{
+		std::ifstream file(request.chosen.c_str());
+		for(int block; (all > 0) && (file >> block);)
+		{
+			const int column = block % across - first_column, row = block / across - first_row;
+			if((block >= 0) && (column >= 0) && (column < columns) && (row >= 0) && (row < rows))
+				choose(column, row);
+		}
+		return blocks;
+	}
 	// Steps of 1/p and 1/p^2, p^3 = p + 1.
 	for(int i = 0; (i < request.blocks) && (all > 0); i++)
 	{
@@ -84,6 +106,39 @@ std::string PilotText(int left, int top, int width, int height, double seconds, 
 		}
 		text += "\n";
 	}
+	return text;
+}
+
+double ScoutedChange(const std::vector<double>& rgb, int columns, int rows)
+{
+	double sum = 0.0;
+	int pairs = 0;
+	const auto differ = [&](int a, int b)
+	{
+		for(int c = 0; c < 3; c++)
+		{
+			const double from = rgb[size_t(3 * a + c)], to = rgb[size_t(3 * b + c)];
+			const double change = std::min(ScoutWhite, std::max(0.0, from)) - std::min(ScoutWhite, std::max(0.0, to));
+			sum += change * change / 3.0;
+		}
+		pairs++;
+	};
+
+	for(int i = 0; i < columns * rows; i++)
+	{
+		if(i % columns + 1 < columns)
+			differ(i, i + 1);
+		if(i / columns + 1 < rows)
+			differ(i, i + columns);
+	}
+	return pairs > 0 ? sum / pairs : 0.0;
+}
+
+std::string ScoutText(int left, int top, double seconds, int samples, double change)
+{
+	char text[120];
+
+	std::snprintf(text, sizeof(text), "scout %d %d %.6g %d %.9g\n", left, top, seconds, samples, change);
 	return text;
 }
 

@@ -279,7 +279,7 @@ void Parser::Resolve_Tilt_Lens(Camera& New)
 		New.Tilt_Lens.denoised = boost::shared_ptr<tilt_lens::DenoisedPicture>(new tilt_lens::DenoisedPicture());
 	if (New.Tilt_Lens.spec.channels)
 		New.Tilt_Lens.channels.reset(new tilt_lens::LensChannels());
-	New.Tilt_Lens.pilot = tilt_lens::ParsePilotRequest(getenv(tilt_lens::PilotVariable));
+	New.Tilt_Lens.pilot = tilt_lens::PilotOfEnvironment();
 	if (New.Tilt_Lens.pilot)
 		New.Tilt_Lens.pilot_queue = boost::shared_ptr<tilt_lens::PilotQueue>(new tilt_lens::PilotQueue(New.Tilt_Lens.pilot));
 }

@@ -63,6 +63,24 @@ static void Judge_First_Pilot_Samples(vector<TilePixel>& block, int w, int h)
 		block[i].neighbourhood_variance = around.variance[i];
 }
 
+/// One sample each of a few pixels that are spread over a block of w x h pixels; `sample` gives one's mean, of a pixel of the block.
+template<typename Sample>
+static std::string Scout_Pilot_Block(int x, int y, int w, int h, const Sample& sample)
+{
+	const int step = PilotBlockSize / tilt_lens::ScoutSide;
+	const int columns = max(1, (w + step / 2 - 1) / step), rows = max(1, (h + step / 2 - 1) / step);
+	vector<double> rgb;
+	const DBL start = Thread_Seconds();
+
+	for(int i = 0; i < columns * rows; i++)
+	{
+		const Colour mean = sample(x + min(i % columns * step + step / 2, w - 1), y + min(i / columns * step + step / 2, h - 1));
+		for(int c = 0; c < 3; c++)
+			rgb.push_back(mean[c]);
+	}
+	return tilt_lens::ScoutText(x, y, Thread_Seconds() - start, columns * rows, tilt_lens::ScoutedChange(rgb, columns, rows));
+}
+
 /// In place of TraceTiltLensTile: as many blocks of the pilot as this tile has room for, one at least, from
 /// anywhere in the picture, which itself stays black.
 void TracePixel::TraceTiltLensPilot(int left, int top, int right, int bottom, int width, int height, vector<Colour>& colours)
@@ -84,6 +102,17 @@ void TracePixel::TraceTiltLensPilotBlock(int x, int y, int width, int height)
 	const int rays = camera.Tilt_Lens.lens.splits ? tilt_lens::Wavelengths : 1;     // a sample
 	vector<vector<PilotLevel> > pixels;
 	vector<TilePixel> tile;
+	const auto sampled = [&](int px, int py)
+	{
+		TilePixel pixel(px, py, camera.Tilt_Lens.Seed());
+		SampleTiltLensPixel(pixel, 1, width, height);
+		return pixel.sums.Mean();
+	};
+	if(request.Scouts())
+	{
+		Append_To_Pilot_File(request.file, Scout_Pilot_Block(x, y, w, h, sampled));
+		return;
+	}
 	const DBL start = Thread_Seconds();
 
 	for(int i = 0; i < w * h; i++)

@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
+#include <fstream>
+#include <string>
 #include <random>
 #include <set>
 #include <vector>
@@ -276,9 +279,38 @@ TEST(Pilot, RequestIsReadOrIgnored)
 	EXPECT_EQ(r.samples, 256);
 	EXPECT_EQ(r.seconds, 2.5);
 	EXPECT_EQ(r.file, "/tmp/a,b.txt");
-	for(const char *bad : { "", "64", "64,256,", "64,256,1", "64,256,1,", "64,256,0,f", "64,100,1,f", "0,64,1,f", "-3,64,1,f", "64,1,1,f", "x,y,z" })
+	for(const char *bad : { "", "64", "64,256,", "64,256,1", "64,256,1,", "64,256,0,f", "64,100,1,f", "0,64,1,f", "-3,64,1,f", "64,0,1,f", "x,y,z" })
 		EXPECT_FALSE(bool(ParsePilotRequest(bad))) << bad;
 	EXPECT_FALSE(bool(ParsePilotRequest(nullptr)));
+	EXPECT_FALSE(r.Scouts());
+	EXPECT_TRUE(ParsePilotRequest("64,1,2.5,f").Scouts());
+}
+
+TEST(Pilot, BlocksThatAFileNamesComeInItsOrder)
+{
+	const std::string file = testing::TempDir() + "pilot-blocks";
+	const int side = PilotBlockSize;
+	PilotRequest r;
+	r.blocks = 2;
+	r.chosen = file;
+	std::ofstream(file.c_str()) << "7 3 -1 7 12\n0";
+	EXPECT_EQ(PilotBlocks(r, 4 * side, 3 * side), (std::vector<int>{ 7, 3, 0 })) << "once each, and those of the picture";
+	EXPECT_EQ(PilotBlocks(r, 4 * side, 3 * side, 0, side, 4 * side - 1, 2 * side - 1), std::vector<int>{ 7 }) << "those of its part";
+	std::remove(file.c_str());
+	EXPECT_TRUE(PilotBlocks(r, 4 * side, 3 * side).empty());
+}
+
+TEST(Pilot, AScoutSeesWhatNeighboursDifferBy)
+{
+	EXPECT_EQ(ScoutedChange({ 1, 2, 3 }, 1, 1), 0) << "no neighbour";
+	// Red of 3 x 2 pixels; seven pairs.
+	const double red[] = { 0, 1, 1, 0, 3, 9 };
+	std::vector<double> rgb;
+	for(double value : red)
+		rgb.insert(rgb.end(), { value, 0.5, 0.5 });
+	// Along the rows 1, 0, 9 and (3 to 4, the whitest) 1; down 0, 4 and 9.
+	EXPECT_DOUBLE_EQ(ScoutedChange(rgb, 3, 2), (1 + 0 + 9 + 1 + 0 + 4 + 9) / 7.0 / 3);
+	EXPECT_EQ(ScoutText(32, 16, 0.25, 64, 0.125), "scout 32 16 0.25 64 0.125\n");
 }
 
 TEST(Pilot, BlocksAreSpreadOverThePicture)
