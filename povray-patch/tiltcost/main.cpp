@@ -50,7 +50,7 @@ std::vector<FrameRow> FrameRows(const FilmRun& film, const Setting& setting)
 	std::vector<FrameRow> rows;
 	for (size_t i = 0; i < film.frames.size(); ++i)
 	{
-		const Pilot pilot(film.runs[i].blocks);
+		const Pilot pilot(film.runs[i].blocks, film.runs[i].pictures);
 		const Row row = MakeRow(pilot, film.runs[i].machine, setting);
 		rows.push_back({film.frames[i], setting.denoise ? WithDenoise(pilot, film.runs[i].machine, row) : row});
 	}
@@ -127,7 +127,7 @@ void WriteRows(const Options& options, const PilotRun& run)
 	if (options.own.empty() && !own)
 		throw tiltcal::Refused("this povray does not tell what the scene says; name it with --setting MIN,MAX,VARIANCE");
 	const Setting setting = options.own.empty() ? Setting{own->min, own->max, own->variance, own->confidence, own->denoise} : options.own[0];
-	tiltcal::WriteText(options.rows, RowsText(run, Pilot(run.blocks), setting));
+	tiltcal::WriteText(options.rows, RowsText(run, Pilot(run.blocks, run.pictures), setting));
 }
 
 void Run(const Options& options)
@@ -156,7 +156,7 @@ void Run(const Options& options)
 	}
 	if (!options.rows.empty())
 		return WriteRows(options, report.pilot);
-	const Pilot pilot(report.pilot.blocks);
+	const Pilot pilot(report.pilot.blocks, report.pilot.pictures);
 	report.pilot.blocks.clear();
 	report.blocks = pilot.Blocks();
 	report.samples = pilot.Samples();

@@ -101,12 +101,4 @@ double TraceSeconds(const std::vector<PilotBlock>& blocks)
 	return seconds;
 }
 
-double SecondsPerSample(const std::vector<PilotBlock>& blocks)
-{
-	double samples = 0;
-	for (const PilotBlock& block : blocks)
-		samples += double(block.pixels.size()) * block.pixels[0].back().samples;
-	return samples > 0 ? TraceSeconds(blocks) / samples : 0;
-}
-
 }

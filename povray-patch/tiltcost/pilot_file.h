@@ -6,6 +6,7 @@
 #define TILTCOST_PILOT_FILE_H
 
 #include "lens/pilot.h"
+#include "tiltcost/block_choice.h"
 
 #include <optional>
 #include <string>
@@ -20,8 +21,16 @@ struct PilotBlock
 	double seconds = 0;     ///< CPU, for all samples of all pixels
 	double first_seconds = 0;   ///< of them, for the first of each, and what a pixel costs once
 	std::optional<tilt_lens::PilotSetting> own;     ///< what the scene says
+	SampledBlock sampled;   ///< how it was chosen
+	size_t picture = 0;     ///< of a film: which of the frames that have pilots
 	/// Row by row; of a pixel the sums at 1, 2, 4, ... samples.
 	std::vector<std::vector<tilt_lens::PilotLevel>> pixels;
+};
+
+/// What blocks of a picture were chosen from; none: they count alike.
+struct Population
+{
+	double blocks = 0, worth = 0;
 };
 
 /// The whole blocks in the text, in its order; a last one that was cut off is left out.
@@ -34,9 +43,6 @@ void ThinOut(size_t count, std::vector<PilotBlock>& blocks);
 
 /// CPU seconds of all blocks.
 double TraceSeconds(const std::vector<PilotBlock>& blocks);
-
-/// CPU seconds of a sample, on average. 0 without blocks.
-double SecondsPerSample(const std::vector<PilotBlock>& blocks);
 
 }
 

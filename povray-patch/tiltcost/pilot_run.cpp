@@ -6,6 +6,7 @@
 #include "tiltcost/progress.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -23,8 +24,9 @@ namespace tiltcost
 namespace
 {
 
-/// Few samples, so that slow scenes do not keep their user waiting before anything is known.
-const PilotPlan TinyPilot = {12, 16};
+/// All blocks, one sample each of some of their pixels; of slow scenes as many as there are in a tenth of the time.
+const PilotPlan ScoutPilot = {1 << 24, 1};
+const double ScoutShare = 0.1;
 
 /// A file that grows: what came since the last look.
 class Growing
@@ -70,7 +72,8 @@ public:
 	PilotRenders(const Job& what, const tiltcal::TemporaryFolder& where) : job(what), folder(where) {}
 
 	/// `frame`: of an animation, else none.
-	PilotRun Run(const PilotPlan& plan, double seconds, const std::string& title, const std::string& number, std::optional<int> frame = {});
+	PilotRun Run(const PilotPlan& plan, double seconds, const std::string& title, const std::string& number, std::optional<int> frame = {},
+		const std::vector<int>& chosen = {});
 
 	/// Which frames the scene and the options ask for. No pixel is traced.
 	FrameRange Frames();
@@ -94,10 +97,13 @@ std::string Quoted(const std::string& path)
 
 bool PilotRenders::Watch(double seconds)
 {
-	// The letter occurs once in a block's text.
+	// The letter occurs once in what is written of a block.
 	const std::string grown = pilot->Next();
-	done += int(std::count(grown.begin(), grown.end(), 'b'));
-	progress.Show(fmt::format("{} of {} blocks, {:.0f} s{}", std::min(done, wanted), wanted, seconds, TimeLeft(double(done) / std::max(wanted, 1), seconds)));
+	done += int(std::count(grown.begin(), grown.end(), 'o'));
+	if (wanted == ScoutPilot.blocks)
+		progress.Show(fmt::format("{} blocks, {:.0f} s", done, seconds));
+	else
+		progress.Show(fmt::format("{} of {} blocks, {:.0f} s{}", std::min(done, wanted), wanted, seconds, TimeLeft(double(done) / std::max(wanted, 1), seconds)));
 
 	// A camera without tilt_lens renders the whole picture: half of it is enough to know.
 	const std::string said = messages->Next();
@@ -108,7 +114,8 @@ bool PilotRenders::Watch(double seconds)
 		std::sscanf(said.c_str() + at, "Rendered %lf of %lf", &rendered, &all) != 2 || rendered < all / 2;
 }
 
-PilotRun PilotRenders::Run(const PilotPlan& plan, double seconds, const std::string& title, const std::string& number, std::optional<int> frame)
+PilotRun PilotRenders::Run(const PilotPlan& plan, double seconds, const std::string& title, const std::string& number, std::optional<int> frame,
+	const std::vector<int>& chosen)
 {
 	const std::string file = folder.File("pilot" + number), log = folder.File("log" + number);
 	pilot = std::make_unique<Growing>(file);
@@ -117,6 +124,12 @@ PilotRun PilotRenders::Run(const PilotPlan& plan, double seconds, const std::str
 	wanted = plan.blocks;
 	progress.Begin(title);
 	std::vector<std::string> environment = {fmt::format("{}={},{},{:g},{}", tilt_lens::PilotVariable, plan.blocks, plan.samples, seconds, file)};
+	if (!chosen.empty())
+	{
+		const std::string names = folder.File("blocks" + number);
+		std::ofstream(names) << fmt::format("{}\n", fmt::join(chosen, "\n"));
+		environment.push_back(fmt::format("{}={}", tilt_lens::PilotBlocksVariable, names));
+	}
 	if (job.may_write)
 		environment.push_back(fmt::format("{}=1", tilt_lens::PilotWritesVariable));
 	const tiltcal::ProcessResult result = tiltcal::RunProcess({PilotCommand(job, folder, frame), "", environment, "", log},
@@ -127,10 +140,13 @@ PilotRun PilotRenders::Run(const PilotPlan& plan, double seconds, const std::str
 	const std::string said = Contents(log);
 	run.log = ReadRenderLog(said);
 	CheckPilotRender(job, result, said);
-	run.blocks = ParsePilot(Contents(file));
-	if (run.blocks.empty())
+	if (plan.samples == 1)
+		run.scouted = ParseScouted(Contents(file));
+	else
+		run.blocks = ParsePilot(Contents(file));
+	if (run.blocks.empty() && run.scouted.empty())
 		NoTiltLens(run.log);
-	const double trace = TraceSeconds(run.blocks), samples = Samples(run.blocks);
+	const double trace = TraceSeconds(run.blocks) + TraceSeconds(run.scouted), samples = Samples(run.blocks);
 	run.wall = result.wall;
 	run.machine.threads = run.log.threads;
 	run.machine.pixels = run.log.pixels;
@@ -165,10 +181,27 @@ FrameRange PilotRenders::Frames()
 	return *range;
 }
 
-/// What is left of the time for the pilots, after tiny ones: the processors may be busy with other work, or fewer than threads.
-double LeftOf(double seconds, const PilotRun& tiny)
+/// What is left of the time for the pilots, after scouts: the processors may be busy with other work, or fewer than threads.
+double LeftOf(double seconds, const PilotRun& scout)
 {
-	return std::max(0.1 * seconds, seconds - (tiny.wall - tiny.machine.start_wall));
+	return std::max(0.1 * seconds, seconds - (scout.wall - scout.machine.start_wall));
+}
+
+int Columns(const PilotRun& run)
+{
+	return (run.log.width + tilt_lens::PilotBlockSize - 1) / tilt_lens::PilotBlockSize;
+}
+
+/// Notes what each block stands for.
+void NoteChances(const BlockChoice& choice, size_t picture, PilotRun& run)
+{
+	run.pictures.resize(picture + 1);
+	run.pictures[picture] = {double(choice.Blocks()), choice.Worth()};
+	for (PilotBlock& block : run.blocks)
+	{
+		block.picture = picture;
+		block.sampled = {choice.ChanceOf(block.left, block.top, run.blocks.size()).value_or(1), choice.WorthOf(block.left, block.top)};
+	}
 }
 
 /// Both started the same way; the first wrote less, and the machine may have been busy in either.
@@ -261,11 +294,14 @@ PilotPlan PlanRowsPilot(double seconds_per_sample, int threads, double seconds, 
 PilotRun RunPilots(const Job& job, const tiltcal::TemporaryFolder& folder)
 {
 	PilotRenders renders(job, folder);
-	const PilotRun tiny = renders.Run(TinyPilot, job.pilot_seconds, "first pilot", "1");
-	const double left = LeftOf(job.pilot_seconds, tiny);
-	const PilotPlan plan = (job.rows ? PlanRowsPilot : PlanPilot)(SecondsPerSample(tiny.blocks), tiny.machine.threads, left, job.most_blocks);
-	PilotRun run = renders.Run(plan, left, "pilot render", "2");
-	TakeLesserStart(run, tiny);
+	const PilotRun scout = renders.Run(ScoutPilot, ScoutShare * job.pilot_seconds, "first pilot", "1");
+	const double left = LeftOf(job.pilot_seconds, scout);
+	const PilotPlan plan = (job.rows ? PlanRowsPilot : PlanPilot)(SecondsPerSample(scout.scouted), scout.machine.threads, left, job.most_blocks);
+	// Where rows are asked for, each place is.
+	const BlockChoice choice(job.rows ? std::vector<ScoutedBlock>() : scout.scouted);
+	PilotRun run = renders.Run(plan, left, "pilot render", "2", {}, choice.Choose(size_t(plan.blocks), Columns(scout)));
+	NoteChances(choice, 0, run);
+	TakeLesserStart(run, scout);
 	return run;
 }
 
@@ -279,26 +315,30 @@ FilmRun RunFilmPilots(const Job& job, const tiltcal::TemporaryFolder& folder)
 	const auto title = [&](const char* what, size_t i) { return fmt::format("{} of frame {} ({} of {})", what, film.frames[i], i + 1, count); };
 
 	// One plan for all, by their mean, so that each frame counts as much as another.
-	std::vector<PilotRun> tiny;
+	std::vector<PilotRun> scouts;
 	double sample = 0, left = 0;
 	for (size_t i = 0; i < count; ++i)
 	{
-		tiny.push_back(renders.Run(TinyPilot, job.pilot_seconds / double(count), title("first pilot", i), fmt::format("{}-1", i), film.frames[i]));
-		sample += SecondsPerSample(tiny[i].blocks) / double(count);
-		left += LeftOf(job.pilot_seconds / double(count), tiny[i]);
+		scouts.push_back(renders.Run(ScoutPilot, ScoutShare * job.pilot_seconds / double(count), title("first pilot", i), fmt::format("{}-1", i), film.frames[i]));
+		sample += SecondsPerSample(scouts[i].scouted) / double(count);
+		left += LeftOf(job.pilot_seconds / double(count), scouts[i]);
 	}
-	const PilotPlan plan = PlanPilot(sample, tiny[0].machine.threads, left / double(count), job.most_blocks);
+	const PilotPlan plan = PlanPilot(sample, scouts[0].machine.threads, left / double(count), job.most_blocks);
 	size_t least = size_t(plan.blocks);
 	for (size_t i = 0; i < count; ++i)
 	{
 		// By its own share of the time, and some: a frame that is dearer than others takes longer for as many blocks.
-		const double share = 1.5 * left * SecondsPerSample(tiny[i].blocks) / std::max(1e-12, sample * double(count));
-		film.runs.push_back(renders.Run(plan, share, title("pilot", i), fmt::format("{}-2", i), film.frames[i]));
-		TakeLesserStart(film.runs[i], tiny[i]);
+		const double share = 1.5 * left * SecondsPerSample(scouts[i].scouted) / std::max(1e-12, sample * double(count));
+		film.runs.push_back(renders.Run(plan, share, title("pilot", i), fmt::format("{}-2", i), film.frames[i],
+			BlockChoice(scouts[i].scouted).Choose(size_t(plan.blocks), Columns(scouts[i]))));
+		TakeLesserStart(film.runs[i], scouts[i]);
 		least = std::min(least, film.runs[i].blocks.size());
 	}
-	for (PilotRun& run : film.runs)
-		ThinOut(least, run.blocks);
+	for (size_t i = 0; i < count; ++i)
+	{
+		ThinOut(least, film.runs[i].blocks);
+		NoteChances(BlockChoice(scouts[i].scouted), 0, film.runs[i]);
+	}
 	return film;
 }
 
@@ -313,6 +353,9 @@ PilotRun Joined(const FilmRun& film)
 	for (const PilotRun& run : film.runs)
 	{
 		joined.blocks.insert(joined.blocks.end(), run.blocks.begin(), run.blocks.end());
+		for (size_t b = joined.blocks.size() - run.blocks.size(); b < joined.blocks.size(); ++b)
+			joined.blocks[b].picture = joined.pictures.size();
+		joined.pictures.insert(joined.pictures.end(), run.pictures.begin(), run.pictures.end());
 		joined.wall += run.wall;
 		joined.machine.pixels += run.machine.pixels * share * frames;
 		joined.machine.start_cpu += run.machine.start_cpu * share * frames;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 //
-// The pilot renders of a scene: a tiny one to learn what a sample costs, and one that
-// fills the time that was given.
+// The pilot renders of a scene: a first look at all blocks, to learn what a sample costs and which blocks are worth
+// many, and one that fills the time that was given.
 
 #ifndef TILTCOST_PILOT_RUN_H
 #define TILTCOST_PILOT_RUN_H
@@ -95,7 +95,9 @@ std::string ErrorLines(const std::string& log);
 
 struct PilotRun
 {
+	std::vector<ScoutedBlock> scouted;  ///< of a first look; else
 	std::vector<PilotBlock> blocks;
+	std::vector<Population> pictures;   ///< that the blocks are of
 	Machine machine;
 	RenderLog log;
 	double wall = 0;                    ///< seconds that both pilots took

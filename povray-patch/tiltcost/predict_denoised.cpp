@@ -65,13 +65,13 @@ double Pilot::DenoisedClass::SquaredErrors() const
 	return std::max(off + 2 * kept.SumOfVariances() - changes.SumOfVariances(), kept_squared.SumOfVariances());
 }
 
-Pilot::DenoisedClass& Pilot::DenoisedClass::operator+=(const DenoisedClass& o)
+Pilot::DenoisedClass& Pilot::DenoisedClass::Add(const DenoisedClass& o, double weight)
 {
-	off += o.off;
-	raw_off += o.raw_off;
-	changes += o.changes;
-	kept += o.kept;
-	kept_squared += o.kept_squared;
+	off += weight * o.off;
+	raw_off += weight * o.raw_off;
+	changes += o.changes * weight;
+	kept += o.kept * weight;
+	kept_squared += o.kept_squared * weight;
 	return *this;
 }
 
@@ -81,24 +81,25 @@ double Pilot::PredictDenoised(const Setting& setting, std::vector<double>* left_
 {
 	const std::vector<tilt_lens::SampleLevel> levels = tilt_lens::SampleLevels(setting.min, setting.max, setting.variance, setting.confidence, &Chi2);
 	const size_t count = Known(samples) + 1;
-	std::vector<std::vector<DenoisedClass>> classes(parts, std::vector<DenoisedClass>(count));
+	std::vector<std::vector<DenoisedClass>> classes(blocks.size(), std::vector<DenoisedClass>(count));
 	for (size_t b = 0; b < blocks.size(); ++b)
 	{
 		tiltcal::CheckInterrupt();     // some seconds for a table
 		std::vector<size_t> known;
 		for (const size_t level : LevelsOf(blocks[b], levels))
 			known.push_back(Known(levels[level].samples));
-		AddDenoised(blocks[b], known, classes[b % size_t(parts)]);
+		AddDenoised(blocks[b], known, classes[b]);
 	}
 	const auto error = [&](int without)
 	{
 		double denoised = 0, raw = 0, pixels = 0;
+		const std::vector<double> weights = Weights(without, without < 0 ? 1 : parts);
 		for (size_t k = 0; k < count; ++k)
 		{
 			DenoisedClass of;
-			for (int part = 0; part < parts; ++part)
-				if (part != without)
-					of += classes[size_t(part)][k];
+			for (size_t b = 0; b < blocks.size(); ++b)
+				if (weights[b] > 0)
+					of.Add(classes[b][k], weights[b]);
 			if (of.changes.pixels == 0)
 				continue;
 			denoised += of.SquaredErrors();

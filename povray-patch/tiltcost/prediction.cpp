@@ -44,13 +44,16 @@ std::string SceneText(const Setting& setting)
 	return samples + fmt::format("  variance {:.9g}", setting.variance) + (setting.denoise ? "  tilt_lens { denoise }" : "");
 }
 
-Pilot::Pilot(const std::vector<PilotBlock>& read)
+Pilot::Pilot(const std::vector<PilotBlock>& read, const std::vector<Population>& pictures) : populations(pictures)
 {
 	for (const PilotBlock& from : read)
 	{
 		Block block;
 		block.x = from.left + 0.5 * from.width;
 		block.y = from.top + 0.5 * from.height;
+		block.sampled = from.sampled;
+		block.picture = from.picture;
+		populations.resize(std::max(populations.size(), block.picture + 1));
 		block.width = from.width;
 		block.height = from.height;
 		samples = from.pixels[0].back().samples;
@@ -62,6 +65,28 @@ Pilot::Pilot(const std::vector<PilotBlock>& read)
 			pixel_count += IsInside(block, i % block.width, i / block.width);
 		blocks.push_back(std::move(block));
 	}
+}
+
+/// How much each block counts, on average 1 in each picture; 0 for those whose index is `part` modulo `parts` (parts > 1).
+std::vector<double> Pilot::Weights(int part, int parts) const
+{
+	std::vector<double> weights(blocks.size(), 0.0);
+	for (size_t picture = 0; picture < populations.size(); ++picture)
+	{
+		std::vector<size_t> of;
+		std::vector<SampledBlock> sampled;
+		for (size_t b = 0; b < blocks.size(); ++b)
+			if (blocks[b].picture == picture && (parts <= 1 || int(b) % parts != part))
+			{
+				of.push_back(b);
+				sampled.push_back(blocks[b].sampled);
+			}
+		const Population& all = populations[picture];
+		const std::vector<double> numbers = all.blocks > 0 ? CalibratedWeights(sampled, all.blocks, all.worth) : std::vector<double>(of.size(), 1.0);
+		for (size_t i = 0; i < of.size(); ++i)
+			weights[of[i]] = all.blocks > 0 ? numbers[i] * double(of.size()) / all.blocks : 1;
+	}
+	return weights;
 }
 
 Pilot::Pixel Pilot::Prepare(const std::vector<PilotLevel>& levels)
@@ -202,10 +227,12 @@ Prediction Pilot::Predict(const Setting& setting, int part, int parts) const
 	Prediction sum;
 	double pixels = 0;
 
+	const std::vector<double> weights = Weights(part, parts);
 	for (size_t b = 0; b < blocks.size(); ++b)
 	{
 		const Block& block = blocks[b];
-		if (parts > 1 && int(b) % parts == part)
+		const double weight = weights[b];
+		if (weight == 0)
 			continue;
 		const std::vector<size_t> chosen = LevelsOf(block, levels);
 		double taken = 0, inside = 0;
@@ -214,13 +241,13 @@ Prediction Pilot::Predict(const Setting& setting, int part, int parts) const
 			if (!IsInside(block, int(i) % block.width, int(i) / block.width))
 				continue;
 			Class& c = classes[chosen[i]];
-			c.pixels++;
-			inside++;
-			taken += levels[chosen[i]].samples;
+			c.pixels += weight;
+			inside += weight;
+			taken += weight * levels[chosen[i]].samples;
 			for (int scale = 0; scale < SCALES; ++scale)
 			{
-				c.off[scale] += block.pixels[i].levels[known[chosen[i]]].off[scale];
-				c.changes[scale] += block.pixels[i].changes[scale];
+				c.off[scale] += weight * block.pixels[i].levels[known[chosen[i]]].off[scale];
+				c.changes[scale] += block.pixels[i].changes[scale] * weight;
 			}
 		}
 		pixels += inside;

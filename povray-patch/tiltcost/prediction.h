@@ -59,8 +59,8 @@ struct BlockCost
 class Pilot
 {
 public:
-	/// Blocks as of ParsePilot, at least one.
-	explicit Pilot(const std::vector<PilotBlock>& blocks);
+	/// Blocks as of ParsePilot, at least one; of each of their pictures, what they were chosen from.
+	explicit Pilot(const std::vector<PilotBlock>& blocks, const std::vector<Population>& pictures = {});
 
 	Prediction Predict(const Setting& setting) const { return Predict(setting, 0, 1); }
 
@@ -101,6 +101,8 @@ private:
 	struct Block
 	{
 		double x, y;                    ///< its centre
+		SampledBlock sampled;
+		size_t picture;
 		int width, height;
 		double seconds_per_pixel;       ///< for its first sample and what a pixel costs once
 		double seconds_per_sample;      ///< for each of the others
@@ -123,11 +125,12 @@ private:
 		double off = 0, raw_off = 0;                ///< squared distances of the denoised ones, and of the others, from m(N)
 		tilt_lens::LevelChanges changes, kept, kept_squared;    ///< all, and by the shares that pixels keep of their own means, and the shares' squares
 
-		DenoisedClass& operator+=(const DenoisedClass& o);
+		DenoisedClass& Add(const DenoisedClass& o, double weight);
 		double SquaredErrors() const;
 		double RawSquaredErrors() const { return raw_off + changes.SumOfVariances(); }
 	};
 
+	std::vector<double> Weights(int part, int parts) const;
 	static Pixel Prepare(const std::vector<tilt_lens::PilotLevel>& levels);
 	std::vector<tilt_lens::Between> CompareFirst(const Block& block, int first) const;
 	std::vector<size_t> LevelsOf(const Block& block, const std::vector<tilt_lens::SampleLevel>& levels) const;
@@ -137,6 +140,7 @@ private:
 	void AddErrors(const Class& of, int count, Prediction& sum) const;
 
 	std::vector<Block> blocks;
+	std::vector<Population> populations;    ///< of the pictures
 	int samples = 0, pixel_count = 0;
 };
 
