@@ -193,15 +193,11 @@ int Columns(const PilotRun& run)
 }
 
 /// Notes what each block stands for.
-void NoteChances(const BlockChoice& choice, size_t picture, PilotRun& run)
+void NoteChances(const BlockChoice& choice, PilotRun& run)
 {
-	run.pictures.resize(picture + 1);
-	run.pictures[picture] = {double(choice.Blocks()), choice.Worth()};
+	run.pictures = {{double(choice.Blocks()), choice.Worth()}};
 	for (PilotBlock& block : run.blocks)
-	{
-		block.picture = picture;
 		block.sampled = {choice.ChanceOf(block.left, block.top, run.blocks.size()).value_or(1), choice.WorthOf(block.left, block.top)};
-	}
 }
 
 /// Both started the same way; the first wrote less, and the machine may have been busy in either.
@@ -300,7 +296,7 @@ PilotRun RunPilots(const Job& job, const tiltcal::TemporaryFolder& folder)
 	// Where rows are asked for, each place is.
 	const BlockChoice choice(job.rows ? std::vector<ScoutedBlock>() : scout.scouted);
 	PilotRun run = renders.Run(plan, left, "pilot render", "2", {}, choice.Choose(size_t(plan.blocks), Columns(scout)));
-	NoteChances(choice, 0, run);
+	NoteChances(choice, run);
 	TakeLesserStart(run, scout);
 	return run;
 }
@@ -325,19 +321,21 @@ FilmRun RunFilmPilots(const Job& job, const tiltcal::TemporaryFolder& folder)
 	}
 	const PilotPlan plan = PlanPilot(sample, scouts[0].machine.threads, left / double(count), job.most_blocks);
 	size_t least = size_t(plan.blocks);
+	std::vector<BlockChoice> choices;
 	for (size_t i = 0; i < count; ++i)
 	{
 		// By its own share of the time, and some: a frame that is dearer than others takes longer for as many blocks.
 		const double share = 1.5 * left * SecondsPerSample(scouts[i].scouted) / std::max(1e-12, sample * double(count));
+		choices.emplace_back(scouts[i].scouted);
 		film.runs.push_back(renders.Run(plan, share, title("pilot", i), fmt::format("{}-2", i), film.frames[i],
-			BlockChoice(scouts[i].scouted).Choose(size_t(plan.blocks), Columns(scouts[i]))));
+			choices[i].Choose(size_t(plan.blocks), Columns(scouts[i]))));
 		TakeLesserStart(film.runs[i], scouts[i]);
 		least = std::min(least, film.runs[i].blocks.size());
 	}
 	for (size_t i = 0; i < count; ++i)
 	{
 		ThinOut(least, film.runs[i].blocks);
-		NoteChances(BlockChoice(scouts[i].scouted), 0, film.runs[i]);
+		NoteChances(choices[i], film.runs[i]);
 	}
 	return film;
 }

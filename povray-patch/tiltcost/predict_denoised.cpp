@@ -65,14 +65,13 @@ double Pilot::DenoisedClass::SquaredErrors() const
 	return std::max(off + 2 * kept.SumOfVariances() - changes.SumOfVariances(), kept_squared.SumOfVariances());
 }
 
-Pilot::DenoisedClass& Pilot::DenoisedClass::Add(const DenoisedClass& o, double weight)
+void Pilot::DenoisedClass::Add(const DenoisedClass& o, double weight)
 {
 	off += weight * o.off;
 	raw_off += weight * o.raw_off;
 	changes += o.changes * weight;
 	kept += o.kept * weight;
 	kept_squared += o.kept_squared * weight;
-	return *this;
 }
 
 /// What denoise makes of the error in the few pixels that have all their neighbours, times the error without of all pixels: where a picture is
