@@ -67,7 +67,7 @@ void WidenTilt(const StateLens& whole, size_t state, const std::vector<PartAnswe
 
 }
 
-std::vector<PartAnswer> SolveParts(const Calibration& c)
+std::vector<PartAnswer> SolveParts(const Calibration& c, int& without_answer)
 {
 	std::vector<PartAnswer> parts;
 	for (const EdgeSubset& half : FourHalvesOfEdges(c.task))
@@ -75,6 +75,8 @@ std::vector<PartAnswer> SolveParts(const Calibration& c)
 		PartAnswer part{ c.geometry, c.solution };
 		if (RefineJointly(WithEdges(c.task, half), Refinement::EDGES, part.geometry, part.solution))
 			parts.push_back(part);
+		else
+			++without_answer;
 	}
 	return parts;
 }

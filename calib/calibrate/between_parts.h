@@ -22,8 +22,8 @@ struct PartAnswer
 };
 
 /// The joint fit of `calibration` again, by edges, of the half of each photograph's edges that is nearer to the picture's middle, the half farther from
-/// it, the sharper and the more blurred half. Those that converge; calibration.solution is an exact model's, jointly refined.
-std::vector<PartAnswer> SolveParts(const Calibration& calibration);
+/// it, the sharper and the more blurred half. Those that converge, the others are added to `without_answer`; calibration.solution is an exact model's, jointly refined.
+std::vector<PartAnswer> SolveParts(const Calibration& calibration, int& without_answer);
 
 /// Where blur or places misfit by more than noise and no real lens is used, what the thin lens leaves out is the same in every photograph: neither
 /// residuals nor the photographs against each other scatter by it. It differs from part to part of the picture and of the blur, so w, f, U, d and tilts

@@ -139,11 +139,13 @@ void WidenByParts(const Solution& whole, const std::vector<PartAnswer>& parts, C
 /// Sigmas of a thin lens whose photographs are unsharp by themselves.
 void WidenByFloor(const CalibrateOptions& o, Calibration& c)
 {
-	if (c.solution.model == Model::PAPER || !c.refined || o.refinement == Refinement::NONE)
+	if (c.solution.model == Model::PAPER || !c.refined || o.refinement == Refinement::NONE || !ShapeOfFloorIsSeen(c))
 		return;
 	const Solution whole = c.solution;
 	if (const std::optional<PartAnswer> other = SolveWithGaussianFloor(c))
 		WidenByParts(whole, { *other }, c);
+	else
+		++c.fits_without_answer;
 }
 
 /// Sigmas of a thin lens whose photographs misfit by more than noise, in blur or in places.
@@ -154,7 +156,7 @@ void WidenWhereGlassShows(const CalibrateOptions& o, Calibration& c)
 	o.log.Info("solving parts of the edges: how far they put the lens apart");
 	const Solution whole = c.solution;
 	c.thin_as_it_scatters = whole.states;
-	const std::vector<PartAnswer> parts = SolveParts(c);
+	const std::vector<PartAnswer> parts = SolveParts(c, c.fits_without_answer);
 	WidenByParts(whole, parts, c);
 }
 

@@ -21,20 +21,6 @@ double Excess(double floor, double blur)
 	return floor * GaussianFloorExcess(std::sqrt(std::max(blur * std::abs(blur) - floor, 0.0) / floor));
 }
 
-/// Whether it moves the aperture by a visible part of its sigma: half of what the blurs' squares change from a sharp edge to a usual one.
-bool IsSeen(const Calibration& c, double floor)
-{
-	std::vector<double> squares;
-	for (const State& state : c.task.states)
-		for (const Photo& photo : state.photos)
-			for (const Edge& edge : photo.edges)
-				squares.push_back(edge.blur * std::abs(edge.blur));
-	if (squares.empty())
-		return false;
-	const double usual = Median(squares) - floor, sigma = c.solution.aperture_diameter.sigma / c.solution.aperture_diameter.value;
-	return !(usual > 0) || 0.5 * floor * GaussianFloorExcess(0) / usual > 0.3 * sigma;
-}
-
 }
 
 double GaussianFloorExcess(double diameter)
@@ -43,11 +29,26 @@ double GaussianFloorExcess(double diameter)
 	return 0.29 / (1 + 0.5 * diameter * diameter);
 }
 
+bool ShapeOfFloorIsSeen(const Calibration& c)
+{
+	const double floor = c.solution.psf_floor_squared.value;
+	if (!(floor > 0))
+		return false;
+	std::vector<double> squares;
+	for (const State& state : c.task.states)
+		for (const Photo& photo : state.photos)
+			for (const Edge& edge : photo.edges)
+				squares.push_back(edge.blur * std::abs(edge.blur));
+	if (squares.empty())
+		return false;
+	// Half of what the blurs' squares change from a sharp edge to a usual one.
+	const double usual = Median(squares) - floor, sigma = c.solution.aperture_diameter.sigma / c.solution.aperture_diameter.value;
+	return !(usual > 0) || 0.5 * floor * GaussianFloorExcess(0) / usual > 0.3 * sigma;
+}
+
 std::optional<PartAnswer> SolveWithGaussianFloor(const Calibration& c)
 {
 	const double floor = c.solution.psf_floor_squared.value;
-	if (!(floor > 0) || !IsSeen(c, floor))
-		return std::nullopt;
 	Task task = c.task;
 	for (State& state : task.states)
 		for (Photo& photo : state.photos)

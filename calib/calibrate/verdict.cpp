@@ -41,6 +41,8 @@ public:
 	{
 		if (!c.refined)
 			Say(Grade::POOR, "the joint refinement did not converge: geometry and blur are as solved one after the other, and each one's sigma does not know of the other's");
+		if (c.fits_without_answer > 0)
+			Say(Grade::FAIR, fmt::format("{} of the fits that tell how far parts of the edges put the lens apart did not converge: the sigmas do not hold that, and may be too small. Photograph more poses", c.fits_without_answer));
 		// Light first: it may be why photographs and an untilted lens look as if they were not what they are.
 		AddRemarks(JudgeLight(c.light));
 		AddRemarks(JudgeLightOfStates(c));

@@ -298,6 +298,12 @@ std::string CalibrationJson(const Calibration& c)
 		Put(json["light"], "sharpening", "_px2", c.light.sharpening);
 		Put(json["light"], "overshoot", "", c.light.overshoot);
 		Put(json["light"], "bend", "", c.light.bend);
+		Json& states = json["light"]["bend_of_states"] = Json::array();
+		for (size_t s = 0; s < c.light.bend_of_states.size(); ++s)
+		{
+			states.push_back({ { "state", c.task.states[s].name } });
+			Put(states.back(), "bend", "", c.light.bend_of_states[s]);
+		}
 		const double unknown = std::numeric_limits<double>::quiet_NaN();
 		Put(json["light"], "exponent", "", c.light.exponent.value_or(Estimate{ unknown, unknown }));
 	}

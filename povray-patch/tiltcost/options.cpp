@@ -163,7 +163,7 @@ Options ParseCommandLine(CLI::App& app, int argc, char** argv)
 	app.add_option("--rows", options.rows, "write the seconds of every row, for the first --setting, else for what the scene\nitself says, and stop: FILE.json; povray-strips cuts pictures by it");
 	app.add_option("--page", options.page, "write a page on which the scene's plane of focus can be tilted, with the tilt_lens\nblock to copy, and stop; nothing is rendered: FILE.html");
 	app.add_option("--pilot-time", pilot_time, "how long pilots may trace, by the clock: blocks of 16 x 16 pixels that\nhave not begun by then are left out, all but the first 4 [10s]");
-	app.add_option("--pilot-blocks", options.job.most_blocks, "at most so many blocks of 16 x 16 pixels [120]")->check(CLI::Range(1, 1000000));
+	app.add_option("--pilot-blocks", options.job.most_blocks, "at most so many blocks of 16 x 16 pixels [240]")->check(CLI::Range(1, 1000000));
 	app.add_option("--frames", options.job.frames, "the scene is an animation (+KFI +KFF, or its ini file): pilots of so many of its\nframes, evenly spread; all figures are the film's")->check(CLI::Range(1, 1000));
 	app.add_flag("--scene-may-write", options.job.may_write, "let a scene that opens files for writing (#fopen) do so: it is parsed twice");
 	app.add_option("--povray", options.job.povray, "POV-Ray with tilt_lens [the povray beside tiltcost]");

@@ -81,9 +81,14 @@ std::vector<PilotBlock> ParsePilot(const std::string& text)
 	return blocks;
 }
 
-void ThinOut(size_t count, std::vector<PilotBlock>& blocks)
+void SortByPlace(std::vector<PilotBlock>& blocks)
 {
 	std::sort(blocks.begin(), blocks.end(), [](const PilotBlock& a, const PilotBlock& b) { return std::tie(a.top, a.left) < std::tie(b.top, b.left); });
+}
+
+void ThinOut(size_t count, std::vector<PilotBlock>& blocks)
+{
+	SortByPlace(blocks);
 	const size_t all = blocks.size();
 	if (count >= all)
 		return;

@@ -38,7 +38,10 @@ struct Population
 /// else, and when a block comes twice: more than one frame was rendered.
 std::vector<PilotBlock> ParsePilot(const std::string& text);
 
-/// Leaves `count` of the blocks or all, spread over them as they lie in the picture: a pilot's file has them as they were done, the dear ones last.
+/// By rows: a pilot's file has them as threads got them done, and what is estimated is not to depend on that.
+void SortByPlace(std::vector<PilotBlock>& blocks);
+
+/// Leaves `count` of the blocks or all, spread over them as they lie in the picture: in a pilot's file the dear ones are last. Sorts them.
 void ThinOut(size_t count, std::vector<PilotBlock>& blocks);
 
 /// CPU seconds of all blocks.

@@ -296,6 +296,7 @@ PilotRun RunPilots(const Job& job, const tiltcal::TemporaryFolder& folder)
 	// Where rows are asked for, each place is.
 	const BlockChoice choice(job.rows ? std::vector<ScoutedBlock>() : scout.scouted);
 	PilotRun run = renders.Run(plan, left, "pilot render", "2", {}, choice.Choose(size_t(plan.blocks), Columns(scout)));
+	SortByPlace(run.blocks);
 	NoteChances(choice, run);
 	TakeLesserStart(run, scout);
 	return run;

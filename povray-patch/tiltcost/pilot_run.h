@@ -25,7 +25,7 @@ struct Job
 	std::string scene;                  ///< .pov or .ini, as the user names it
 	std::vector<std::string> options;   ///< POV-Ray's words, the scene's among them, in the user's order
 	double pilot_seconds = 10;          ///< wall time for which both pilots together may begin blocks
-	int most_blocks = 120;
+	int most_blocks = 240;
 	bool rows = false;                  ///< only where the time goes is asked: many blocks of few samples
 	bool may_write = false;             ///< the scene's own #fopen .. write and append
 	int frames = 0;                     ///< of a film, so many have pilots; 0: the scene is one picture

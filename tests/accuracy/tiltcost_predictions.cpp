@@ -4,7 +4,7 @@
 // other lens samples. Predictions are made once, before anything is rendered. Writes tiltcost.csv and tiltcost.html (a fragment for the
 // report) and fails when a prediction is out of bounds.
 //
-// Without options at the size and with the blocks of COSTS.md: 120 of 1920 x 1080 pixels. --small is ctest's: there seconds are shown, not
+// Without options at the size and with the blocks of COSTS.md: 240 of 1920 x 1080 pixels. --small is ctest's: there seconds are shown, not
 // judged, for renders of tenths of a second say more of what else the machine does than of the prediction; rays are the same on every machine.
 
 #include "base/files.h"
@@ -46,8 +46,8 @@ struct Effort
 	std::string pilot_time;
 };
 
-/// tiltcost's own 120 blocks of 8,100; by the clock long enough for all of them.
-const Effort Full = {1920, 1080, 64, true, 120, "60s"};
+/// tiltcost's own 240 blocks of 8,160; by the clock long enough for all of them.
+const Effort Full = {1920, 1080, 64, true, 240, "60s"};
 /// Three of the 80 blocks for each of the jackknife's ten groups, however busy the machine.
 const Effort Small = {160, 120, 128, false, 30, "10min"};
 
@@ -85,11 +85,14 @@ struct Result
 	double share = 0;
 	double error = 0, uncertain = 0, rays = 0, cpu = 0;   ///< as rendered; `uncertain`: one standard deviation of `error`, relative
 	double denoised = 0, denoised_uncertain = 0;          ///< errors of the same with denoise, where they are predicted
+	double denoised_cpu = 0;
 
 	double ErrorOff() const { return predicted.error / error - 1; }
 	double RaysOff() const { return predicted.rays / rays - 1; }
 	double TimeOff() const { return predicted.cpu / cpu - 1; }
 	double DenoisedOff() const { return denoised > 0 ? predicted.denoised_error / denoised - 1 : 0; }
+	/// Of both together: what denoising takes is a few seconds of many.
+	double DenoisedTimeOff() const { return denoised > 0 ? (predicted.cpu + predicted.denoise_cpu) / denoised_cpu - 1 : 0; }
 	double ErrorLimit() const { return std::min(MostBound, std::max(ErrorBound, Student * std::hypot(predicted.error_sigma, uncertain))); }
 	double DenoisedLimit() const { return std::min(MostBound, std::max(ErrorBound, Student * std::hypot(predicted.denoised_sigma, denoised_uncertain))); }
 	double TimeLimit() const { return std::min(MostBound, std::max(TimeBound, Student * predicted.time_sigma)); }
@@ -102,7 +105,7 @@ struct Result
 	bool Good(bool judge_time) const
 	{
 		return SigmasPromise(judge_time) && Within(ErrorOff(), ErrorLimit(), ErrorBound) && Within(DenoisedOff(), DenoisedLimit(), ErrorBound) && Within(RaysOff(), TimeLimit(), TimeBound)
-			&& (!judge_time || Within(TimeOff(), TimeLimit(), TimeBound));
+			&& (!judge_time || (Within(TimeOff(), TimeLimit(), TimeBound) && Within(DenoisedTimeOff(), TimeLimit(), TimeBound)));
 	}
 };
 
@@ -286,7 +289,9 @@ std::vector<Result> CheckScene(const Places& places, const Scene& scene)
 		{
 			Row with = row;
 			with.denoise = true;
-			const Judged denoised = Judge(Render(places, scene, with, 0, threads).picture, truth, scene.name);
+			const Rendered made = Render(places, scene, with, 0, threads);
+			const Judged denoised = Judge(made.picture, truth, scene.name);
+			result.denoised_cpu = made.cpu;
 			result.denoised = denoised.error;
 			result.denoised_uncertain = denoised.uncertain;
 		}
@@ -304,21 +309,21 @@ std::string DenoisedCells(const Result& r)
 
 void Write(const Places& places, const std::vector<Result>& results)
 {
-	std::string csv = "scene,min,max,variance,predicted_error,predicted_error_sigma,error,error_sigma,predicted_rays,rays,predicted_cpu_s,predicted_cpu_sigma,cpu_s,pilot_share,predicted_denoised_error,predicted_denoised_error_sigma,denoised_error,denoised_error_sigma\n";
+	std::string csv = "scene,min,max,variance,predicted_error,predicted_error_sigma,error,error_sigma,predicted_rays,rays,predicted_cpu_s,predicted_cpu_sigma,cpu_s,pilot_share,predicted_denoised_error,predicted_denoised_error_sigma,denoised_error,denoised_error_sigma,predicted_denoised_cpu_s,denoised_cpu_s\n";
 	std::string html = fmt::format("<h2>tiltcost: predicted and rendered</h2>\n<p>{} × {} pixels, predicted once before anything is rendered, from the part of the picture that stands beside it. Errors against "
 		"truths with other lens samples, whose own error is taken off. Bounds: {:.0f} % in rays{}, {:.0f} % in error, or {:.2f} standard deviations (Student's t, once in 1000) where those are wider, never more than {:.0f} %, and no standard "
 		"deviation that is told may be beyond {:.0f} %."
 		"</p>\n<table><tr><th>scene</th><th>pilot</th><th>blur_samples, variance</th><th>error predicted</th><th>rendered</th><th>off by</th><th>bound</th>"
-		"<th>denoised, predicted</th><th>rendered</th><th>off by</th><th>bound</th><th>rays predicted</th><th>rendered</th><th>off by</th><th>CPU s predicted</th><th>rendered</th><th>off by</th><th>bound</th></tr>\n", places.effort.width, places.effort.height, 100 * TimeBound,
+		"<th>denoised, predicted</th><th>rendered</th><th>off by</th><th>bound</th><th>rays predicted</th><th>rendered</th><th>off by</th><th>CPU s predicted</th><th>rendered</th><th>off by</th><th>denoised, off by</th><th>bound</th></tr>\n", places.effort.width, places.effort.height, 100 * TimeBound,
 		places.effort.judge_time ? " and in time" : " (seconds are shown, not judged)", 100 * ErrorBound, Student, 100 * MostBound, 100 * MostSigma);
 	for (const Result& r : results)
 	{
 		const Row& p = r.predicted;
-		csv += fmt::format("{},{},{},{:g},{:.5g},{:.3g},{:.5g},{:.3g},{:.0f},{:.0f},{:.4g},{:.3g},{:.4g},{:.4g},{:.5g},{:.3g},{:.5g},{:.3g}\n", r.scene, p.min, p.max, p.variance, p.error, p.error_sigma, r.error, r.uncertain,
-			p.rays, r.rays, p.cpu, p.time_sigma, r.cpu, r.share, r.denoised > 0 ? p.denoised_error : 0, p.denoised_sigma, r.denoised, r.denoised_uncertain);
+		csv += fmt::format("{},{},{},{:g},{:.5g},{:.3g},{:.5g},{:.3g},{:.0f},{:.0f},{:.4g},{:.3g},{:.4g},{:.4g},{:.5g},{:.3g},{:.5g},{:.3g},{:.4g},{:.4g}\n", r.scene, p.min, p.max, p.variance, p.error, p.error_sigma, r.error, r.uncertain,
+			p.rays, r.rays, p.cpu, p.time_sigma, r.cpu, r.share, r.denoised > 0 ? p.denoised_error : 0, p.denoised_sigma, r.denoised, r.denoised_uncertain, p.cpu + p.denoise_cpu, r.denoised_cpu);
 		html += fmt::format("<tr{}><td>{}</td><td>{:.1f} %</td><td>{}, {}, {:g}</td><td>{:.4f}</td><td>{:.4f}</td><td>{:+.0f} %</td><td>{:.0f} %</td>{}<td>{:.0f}</td><td>{:.0f}</td><td>{:+.0f} %</td>"
-			"<td>{:.2f}</td><td>{:.2f}</td><td>{:+.0f} %</td><td>{:.0f} %</td></tr>\n", r.Good(places.effort.judge_time) ? "" : " class=\"lost\"", r.scene, 100 * r.share, p.min, p.max, p.variance, p.error, r.error, 100 * r.ErrorOff(), 100 * r.ErrorLimit(),
-			DenoisedCells(r), p.rays, r.rays, 100 * r.RaysOff(), p.cpu, r.cpu, 100 * r.TimeOff(), 100 * r.TimeLimit());
+			"<td>{:.2f}</td><td>{:.2f}</td><td>{:+.0f} %</td><td>{:+.0f} %</td><td>{:.0f} %</td></tr>\n", r.Good(places.effort.judge_time) ? "" : " class=\"lost\"", r.scene, 100 * r.share, p.min, p.max, p.variance, p.error, r.error, 100 * r.ErrorOff(), 100 * r.ErrorLimit(),
+			DenoisedCells(r), p.rays, r.rays, 100 * r.RaysOff(), p.cpu, r.cpu, 100 * r.TimeOff(), 100 * r.DenoisedTimeOff(), 100 * r.TimeLimit());
 	}
 	html += "</table>\n";
 	std::ofstream(places.out / "tiltcost.csv") << csv;
@@ -362,9 +367,9 @@ int main(int argc, char** argv)
 			{
 				results.push_back(r);
 				const Row& p = r.predicted;
-				fmt::print("{} {:<11} {:4.1f} %  {:>2}, {:>4}, {:<7g} error {:.5f} is {:.5f} ({:+3.0f} % of {:.0f} %; known to {:.1f} %)  denoised {:.5f} is {:.5f} ({:+3.0f} % of {:.0f} %)  rays {:.0f} is {:.0f} ({:+3.0f} %)  CPU {:6.2f} s is {:6.2f} s ({:+3.0f} % of {:.0f} %)\n",
+				fmt::print("{} {:<11} {:4.1f} %  {:>2}, {:>4}, {:<7g} error {:.5f} is {:.5f} ({:+3.0f} % of {:.0f} %; known to {:.1f} %)  denoised {:.5f} is {:.5f} ({:+3.0f} % of {:.0f} %)  rays {:.0f} is {:.0f} ({:+3.0f} %)  CPU {:6.2f} s is {:6.2f} s ({:+3.0f}, denoised {:+3.0f} % of {:.0f} %)\n",
 					r.Good(places.effort.judge_time) ? ' ' : '!', r.scene, 100 * r.share, p.min, p.max, p.variance, p.error, r.error, 100 * r.ErrorOff(), 100 * r.ErrorLimit(), 100 * r.uncertain,
-					r.denoised > 0 ? p.denoised_error : 0, r.denoised, 100 * r.DenoisedOff(), 100 * r.DenoisedLimit(), p.rays, r.rays, 100 * r.RaysOff(), p.cpu, r.cpu, 100 * r.TimeOff(), 100 * r.TimeLimit());
+					r.denoised > 0 ? p.denoised_error : 0, r.denoised, 100 * r.DenoisedOff(), 100 * r.DenoisedLimit(), p.rays, r.rays, 100 * r.RaysOff(), p.cpu, r.cpu, 100 * r.TimeOff(), 100 * r.DenoisedTimeOff(), 100 * r.TimeLimit());
 				std::fflush(stdout);
 			}
 		}

@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 using namespace tiltcal;
@@ -105,11 +106,33 @@ TEST(BetweenParts, AThinLensIsNotPutApart)
 {
 	const Task task = synthetic::TwoStates(synthetic::Lens(), synthetic::Tilted(5, 30), { 0.03, 0.06, 1 }, { 0.03, 0.06, 2 });
 	const Calibration c = Calibrate(task, { Model::PLANE, Poses::OWN });
-	const std::vector<PartAnswer> parts = SolveParts(c);
+	int without_answer = 0;
+	const std::vector<PartAnswer> parts = SolveParts(c, without_answer);
 	ASSERT_EQ(parts.size(), 4u);
+	EXPECT_EQ(without_answer, 0);
 	for (const PartAnswer& part : parts)
 		for (Estimate Solution::* number : { &Solution::w_mm, &Solution::focal_length, &Solution::aperture_diameter })
 			EXPECT_LT(std::abs((part.solution.*number).value - (c.solution.*number).value), 4 * (part.solution.*number).sigma);
+}
+
+// A part that says nothing leaves the sigmas as small as they were: that is told.
+TEST(BetweenParts, PartsWithoutAnAnswerAreInTheVerdict)
+{
+	Calibration c = Calibrate(synthetic::TwoStates(synthetic::Lens(), synthetic::Tilted(5, 30), { 0.03, 0.06, 1 }, { 0.03, 0.06, 2 }), { Model::PLANE, Poses::OWN });
+	ASSERT_EQ(c.fits_without_answer, 0);
+	const auto told = [&]
+	{
+		const Verdict verdict = Judge(c);
+		return std::any_of(verdict.remarks.begin(), verdict.remarks.end(), [](const Remark& r) { return r.grade == Grade::FAIR && r.text.find("4 of the fits") == 0; });
+	};
+	EXPECT_FALSE(told());
+	// Halves of one edge a photograph tell no lens.
+	for (State& state : c.task.states)
+		for (Photo& photo : state.photos)
+			photo.edges.resize(1);
+	EXPECT_EQ(SolveParts(c, c.fits_without_answer).size(), 0u);
+	EXPECT_EQ(c.fits_without_answer, 4);
+	EXPECT_TRUE(told());
 }
 
 // What to do about a tilt that is not known well depends on why it is not; and it is judged as it is told.

@@ -237,6 +237,30 @@ TEST(BoardsAndPeople, ABentBoardIsFound)
 	}
 }
 
+TEST(BoardsAndPeople, ABoardBentAlongItsRowsOrTwistedIsFound)
+{
+	const std::tuple<Shape, Estimate BoardCheck::*, double, const char*> boards[] = { { { 0, 0, 1, 0 }, &BoardCheck::bend_along_rows, 1, "over its height" },
+		{ { 0, 0, 0, -1 }, &BoardCheck::twist, -1, "its corners are twisted" } };
+	for (const auto& [shape, number, truth, words] : boards)
+	{
+		const Calibration c = Calibrate(Named({ Photograph("untilted", Lens(), NoiseOf(6), 6, 0, shape), Photograph("tilted", Tilted(5), NoiseOf(7), 6, 0, shape) }), PLANE);
+		EXPECT_NE(c.verdict.grade, Grade::GOOD);
+		EXPECT_THAT(c.verdict.remarks, AllOf(Says(words), Not(Says("over its width"))));
+		EXPECT_NEAR((c.board_check.*number).value, truth, 4 * (c.board_check.*number).sigma);
+	}
+}
+
+// A bowl of the field and a bent board both blur corners: with the model free, what is told of a bent board is that, not a lens that is good.
+TEST(BoardsAndPeople, ABentBoardsFieldCurvatureIsNoGoodCalibration)
+{
+	const Shape bent{ 0, 1 };
+	CalibrateOptions free;
+	free.poses = Poses::OWN;
+	const Calibration c = Calibrate(Named({ Photograph("untilted", Lens(), NoiseOf(6), 6, 0, bent), Photograph("tilted", Tilted(5), NoiseOf(7), 6, 0, bent) }), free);
+	EXPECT_NE(c.verdict.grade, Grade::GOOD);
+	EXPECT_THAT(c.verdict.remarks, Says("over its width"));
+}
+
 TEST(BoardsAndPeople, AForeignBoardsPhotographIsNamed)
 {
 	State tilted = Photograph("tilted", Tilted(5), NoiseOf(2));

@@ -167,6 +167,17 @@ TEST(Detect, AnEvenBoardShowsItsMirrorImage)
 	EXPECT_THROW(DetectCorners(mirrored, board, {}, "mirrored"), Error);
 }
 
+// CALIBRATING.md, Limits: nothing tells it from its mirror image.
+TEST(Detect, AnOddByOddBoardIsTakenInTheMirrorToo)
+{
+	const Painted painted = Paint(11, 9, 1.5);
+	const Board board = ParseBoard("11x9", 25);
+	cv::Mat mirrored;
+	cv::flip(painted.image, mirrored, 1);
+	EXPECT_EQ(DetectCorners(painted.image, board, {}, "painted").size(), 80u);
+	EXPECT_EQ(DetectCorners(mirrored, board, {}, "mirrored").size(), 80u);
+}
+
 TEST(Detect, WrongSizesAreRefused)
 {
 	const Painted painted = Paint(12, 9, 1.5);

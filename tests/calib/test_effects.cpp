@@ -110,9 +110,16 @@ Calibration Chosen(Calibration c, const char* effects = "auto")
 
 TEST(Chromatic, LateralIsFoundAboutTheTiltedAxis)
 {
+	double squares = 0;
+	for (unsigned seed = 1; seed <= 5; ++seed)
+	{
+		const Chromatic found = EstimateChromatic(Coloured(Tilted(), RED, BLUE, 0.03, seed));
+		squares += std::pow(Off(found.lateral[0], RED), 2) + std::pow(Off(found.lateral[1], BLUE), 2);
+	}
+	// Of ten numbers in their sigmas, chi-squared: beyond each of these once in a thousand.
+	EXPECT_LT(squares, 29.6);
+	EXPECT_GT(squares, 1.48);
 	const Calibration c = Chosen(Coloured(Tilted(), RED, BLUE, 0.03, 1));
-	EXPECT_LT(Off(c.chromatic.lateral[0], RED), 2) << c.chromatic.lateral[0].value << " +- " << c.chromatic.lateral[0].sigma;
-	EXPECT_LT(Off(c.chromatic.lateral[1], BLUE), 2) << c.chromatic.lateral[1].value << " +- " << c.chromatic.lateral[1].sigma;
 	EXPECT_LT(c.chromatic.lateral[0].sigma, 0.03 * RED);   // 0.03 px on 600 edges some 350 px from the axis
 	EXPECT_TRUE(Uses(c, EffectId::CHROMATIC_LATERAL));
 	EXPECT_FALSE(Uses(c, EffectId::CHROMATIC_AXIAL)) << EffectsText(c);
@@ -129,12 +136,24 @@ TEST(Chromatic, LateralIsExactWithoutNoise)
 
 TEST(Chromatic, NothingIsWrittenWhereColoursAgree)
 {
-	const Calibration c = Chosen(Coloured(Tilted(), 0, 0, 0.03, 3));   // one seed in forty finds something at 2 sigma
-	EXPECT_FALSE(Uses(c, EffectId::CHROMATIC_LATERAL));
-	EXPECT_FALSE(Uses(c, EffectId::CHROMATIC_AXIAL));
+	// Of two numbers the larger is beyond 2 sigma nine times in a hundred, and must predict edges left out better, too, as half of chance does at most: of twenty sets seven or more one time in
+	// 800, for each of the two effects.
+	int lateral = 0, axial = 0;
+	for (unsigned seed = 1; seed <= 20; ++seed)
+	{
+		const Calibration c = Chosen(Coloured(Tilted(), 0, 0, 0.03, seed));
+		const bool has_lateral = Uses(c, EffectId::CHROMATIC_LATERAL), has_axial = Uses(c, EffectId::CHROMATIC_AXIAL);
+		lateral += has_lateral;
+		axial += has_axial;
+		if (!has_lateral && !has_axial)
+		{
+			EXPECT_THAT(CameraInc(c, 0), Not(HasSubstr("\tchromatic")));
+			EXPECT_THAT(CameraInc(c, 0), HasSubstr("of chromatic aberration; not used: "));
+		}
+	}
+	EXPECT_LT(lateral, 7);
+	EXPECT_LT(axial, 7);
 	EXPECT_THAT(CameraInc(Chosen(Coloured(Tilted(), RED, BLUE, 0.03, 1)), 0), HasSubstr("chromatic lateral TiltCal_state0_Lateral_Red, TiltCal_state0_Lateral_Blue\n"));
-	EXPECT_THAT(CameraInc(c, 0), Not(HasSubstr("\tchromatic")));
-	EXPECT_THAT(CameraInc(c, 0), HasSubstr("of chromatic aberration; not used: "));
 }
 
 namespace
@@ -207,15 +226,15 @@ Calibration FromPictures(std::vector<ColourPicture> pictures)
 
 }
 
-// 2.5 sigma: four numbers are looked at.
+// 3.3 sigma of a normal number: one of two is beyond once in 500 draws of the pictures' noise.
 TEST(Chromatic, PicturesInThreeColoursTellIt)
 {
 	const double red = 2e-3, blue = -1e-3;   // 0.4 and 0.2 px in this small picture
 	std::vector<ColourPicture> pictures{ TakeColours(10, red, blue), TakeColours(100, red, blue) };
 	const Chromatic found = EstimateChromatic(FromPictures(pictures));
 	ASSERT_EQ(found.failure, "");
-	EXPECT_LT(Off(found.lateral[0], red), 2.5) << found.lateral[0].value << " +- " << found.lateral[0].sigma;
-	EXPECT_LT(Off(found.lateral[1], blue), 2.5) << found.lateral[1].value << " +- " << found.lateral[1].sigma;
+	EXPECT_LT(Off(found.lateral[0], red), 3.3) << found.lateral[0].value << " +- " << found.lateral[0].sigma;
+	EXPECT_LT(Off(found.lateral[1], blue), 3.3) << found.lateral[1].value << " +- " << found.lateral[1].sigma;
 	EXPECT_LT(found.lateral[0].sigma, 0.1 * red);
 }
 

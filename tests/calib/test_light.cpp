@@ -9,6 +9,8 @@
 #include "measure/clipped.h"
 #include "model/footprint.h"
 #include "model/predict.h"
+#include "report/report_html.h"
+#include "report/write_json.h"
 #include "solve/each_edge.h"
 
 #include <gtest/gtest.h>
@@ -140,6 +142,11 @@ TEST(Light, StatesThatWereDevelopedApartAreSaid)
 	ASSERT_EQ(remarks.size(), 1u);
 	EXPECT_NE(remarks[0].text.find("were not developed alike"), std::string::npos);
 	EXPECT_EQ(c.verdict.grade, Grade::POOR);
+	// What is found reaches whoever reads the files.
+	const std::string json = CalibrationJson(c);
+	EXPECT_NE(json.find("were not developed alike"), std::string::npos);
+	EXPECT_NE(json.find("\"bend_of_states\": ["), std::string::npos);
+	EXPECT_NE(ReportHtml(c, { "edges", "tiltcal calibrate", "2000-01-01" }, ReportPictures(c.task)).find("were not developed alike"), std::string::npos);
 }
 
 TEST(Light, APowerIsFoundByTheShiftItMakes)

@@ -281,6 +281,16 @@ TEST(Exif, SpeaksWhenTheAnswerIsFarFromIt)
 	c.solution.aperture_diameter = { 45.8 / 2.9, 0.05 };
 	c.solution.w_mm = { 49.4, 0.1 };
 	EXPECT_THAT(CompareWithExif(c), testing::IsEmpty());
+	// From 6 % of the focal length and, in its logarithm, 0.2 of the f-number on, and what three sigma explain.
+	c.solution.focal_length = { 45 * 1.055, 0.01 };
+	c.solution.aperture_diameter = { 45 * 1.055 / (2.8 * 1.19), 0.01 };
+	EXPECT_THAT(CompareWithExif(c), testing::IsEmpty());
+	c.solution.focal_length = { 45 * 1.065, 0.3 };
+	EXPECT_THAT(CompareWithExif(c), testing::IsEmpty());
+	c.solution.focal_length = { 45 * 1.065, 0.01 };
+	c.solution.aperture_diameter = { 45 * 1.065 / (2.8 * 1.25), 0.01 };
+	EXPECT_THAT(CompareWithExif(c), testing::ElementsAre(HasSubstr("focal length"), HasSubstr("f-number")));
+	c.solution.aperture_diameter = { 45.8 / 2.9, 0.05 };
 	c.solution.focal_length = { 50.8, 0.1 };
 	EXPECT_THAT(CompareWithExif(c), testing::ElementsAre(testing::AllOf(HasSubstr("50.80"), HasSubstr("45 mm"), HasSubstr("w 49.40"))));
 	c.solution.aperture_diameter = { 8, 0.05 };

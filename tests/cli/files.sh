@@ -50,6 +50,8 @@ hostile_names)
 		injects "$out/$file"
 	done
 	reads_json "$out/calibration.json"
+	is_utf8 "$out/photographs.csv"
+	"$python" -c 'import csv, sys; n = {len(row) for row in csv.reader(open(sys.argv[1], encoding="utf-8", newline=""))}; sys.exit(len(n) != 1)' "$out/photographs.csv" || fail "columns of photographs.csv"
 	[ -s "$out/blur-tilt37_az030.png" ] || fail "no plot"
 	! grep -a -q '<b>.*1}' "$out/report.html" || fail "report.html has tags from a name"
 	grep -q '^#macro TiltCal_tilt37_az030_Pose(N)' "$out/camera-tilt37_az030.inc" || fail "the identifier is not the name with _"
@@ -81,6 +83,12 @@ hostile_state) # what anybody may have written into a calibration.json
 		expect 0 import hostile.$suffix --pitch 0.02 --out $suffix.json
 		grep -v '"source"\|"model"' camera.json >a; grep -v '"source"\|"model"' $suffix.json | cmp -s a - || fail "$suffix: another camera"
 	done
+	for format in blender:py renderman:rib arnold:ass colmap:txt; do
+		file=hostile.${format#*:}
+		expect 0 export --calibration hostile.json --"${format%:*}" $file; injects $file
+		! tr '\r' '\n' <$file | grep -q '^#error' || fail "$file: a line of its own behind a carriage return"
+	done
+	"$python" -c 'import ast; ast.parse(open("hostile.py").read())' || fail "hostile.py is not Python"
 	"$python" -c 'import xml.dom.minidom; xml.dom.minidom.parse("hostile.xml")' || fail "hostile.xml is not XML"
 	expect 2 pose --calibration hostile.json --state other --points points.csv; says "has the states x" ;;
 state_names)

@@ -33,7 +33,7 @@ namespace
 namespace fs = std::filesystem;
 
 const int Width = 64, Height = 48, Sub = 8, Block = 8, Seeds = 8, Samples = 128;
-const int Groups = 8, Pinholes = 64; // of an opened lens
+const int Groups = 12, Pinholes = 64; // of an opened lens, and as many seeds of ours
 
 struct Case
 {
@@ -54,6 +54,10 @@ const Case cases[] = {
 	{"mirror", "area_light <2, 0, 0>, <0, 0, 2>, 5, 4", "plane { z, 2.5 pigment { rgb 0 } finish { ambient 0 diffuse 0 reflection 0.9 } }"},
 	{"filter", "area_light <2, 0, 0>, <0, 0, 2>, 5, 4 spotlight point_at <0, 0, 0.5> radius 20 falloff 35",
 		"box { <-2, 1.5, -0.5>, <0.2, 1.6, 1> rotate <3, 17, 5> pigment { rgbf <1, 0.6, 0.2, 0.8> } finish { ambient 0 diffuse 0 } }"},
+	{"refraction", "area_light <2, 0, 0>, <0, 0, 2>, 5, 4",
+		"box { <-3, -1, -0.1>, <3, 3, 0.1> rotate <10, 17, 0> translate -1.8 * z pigment { rgbf <0.9, 0.95, 1, 0.9> } finish { ambient 0 diffuse 0.05 reflection 0.08 } interior { ior 1.4 } }"},
+	{"parallel", "area_light <2, 0, 0>, <0, 0, 2>, 5, 4 parallel point_at <0.2, 0, 0.5>", ""},
+	{"cylinder", "area_light <2, 0, 0>, <0, 0, 2>, 5, 4 cylinder point_at <0.2, 0, 0.5> radius 1.2 falloff 2", ""},
 	// Lights of groups beside those of all; in one group the others count too. Edges aslant: those along a row lie between stock's sub-pixels alike in all of a block.
 	{"groups", "area_light <2, 0, 0>, <0, 0, 2>, 5, 4",
 		"light_group {\n"
@@ -140,13 +144,14 @@ struct BlockMeans
 {
 	Picture mean;
 	std::vector<double> variance;
+	std::vector<Picture> each; // that the mean is of, where they are independent
 };
 
 // Of stock's sub-pixels.
 BlockMeans OfSubPixels(const Picture& fine)
 {
 	const int size = Block * Sub;
-	BlockMeans blocks{Coarser(fine, size), {}};
+	BlockMeans blocks{Coarser(fine, size), {}, {}};
 	const double n = double(size) * size;
 	for (int i = 0; i < int(blocks.mean.rgb.size()); ++i)
 	{
@@ -170,7 +175,7 @@ BlockMeans OfPictures(const std::vector<Picture>& pictures)
 	std::vector<Picture> coarse;
 	for (const Picture& picture : pictures)
 		coarse.push_back(Coarser(picture, Block));
-	BlockMeans blocks{coarse[0], {}};
+	BlockMeans blocks{coarse[0], {}, coarse};
 	for (std::size_t i = 0; i < coarse[0].rgb.size(); ++i)
 	{
 		double mean = 0, squares = 0;
@@ -216,13 +221,44 @@ bool JudgeSum(const Case& c, const Comparison& result)
 }
 
 // Pinhole pictures have their lens points in common over all blocks, so that their sums say less. Each block by itself: Student's t of the
-// seven degrees of freedom that the one of the two variances has which alone would count, once in a thousand for all blocks together.
+// degrees of freedom that the one of the two variances has which alone would count, once in a thousand for all blocks together.
 bool JudgeBlocks(const Case& c, const Comparison& result)
 {
-	const double limit = boost::math::quantile(boost::math::complement(boost::math::students_t(std::min(Groups, Seeds) - 1), 0.0005 / result.count));
+	const double limit = boost::math::quantile(boost::math::complement(boost::math::students_t(Groups - 1), 0.0005 / result.count));
 	std::printf("%s: RMS of blocks %.6f, %.6f expected; the largest is %.2f of its standard error (limit %.2f)\n", c.name.c_str(),
 		std::sqrt(result.squares / result.count), std::sqrt(result.variances / result.count), result.largest, limit);
 	return result.largest <= limit;
+}
+
+// All blocks together, however they hang together: the differences of a picture of ours and a group of stock's are as likely with the other sign where
+// both have one mean. The sum of squared block means, each over its squares, is to be among the largest two of all 2048 choices of signs once in a thousand.
+bool JudgeSigns(const Case& c, const BlockMeans& ours, const BlockMeans& stock)
+{
+	const std::size_t pairs = ours.each.size(), blocks = ours.mean.rgb.size();
+	std::vector<double> products(pairs * pairs, 0.0); // of two pairs' differences, over blocks
+	for (std::size_t i = 0; i < blocks; ++i)
+	{
+		double squares = 0;
+		for (std::size_t k = 0; k < pairs; ++k)
+			squares += std::pow(ours.each[k].rgb[i] - stock.each[k].rgb[i], 2);
+		for (std::size_t k = 0; k < pairs && squares > 0; ++k)
+			for (std::size_t l = 0; l < pairs; ++l)
+				products[k * pairs + l] += (ours.each[k].rgb[i] - stock.each[k].rgb[i]) * (ours.each[l].rgb[i] - stock.each[l].rgb[i]) / squares;
+	}
+	const auto sum = [&](unsigned signs) {
+		double all = 0;
+		for (std::size_t k = 0; k < pairs; ++k)
+			for (std::size_t l = 0; l < pairs; ++l)
+				all += ((signs >> k ^ signs >> l) & 1u ? -1 : 1) * products[k * pairs + l];
+		return all;
+	};
+	const unsigned choices = 1u << (pairs - 1);
+	const double own = sum(0);
+	unsigned beyond = 0;
+	for (unsigned signs = 1; signs < choices; ++signs)
+		beyond += sum(signs) >= own;
+	std::printf("%s: of %u choices of signs %u put the blocks farther apart (at least %u wanted)\n", c.name.c_str(), choices, beyond, choices / 1000);
+	return beyond >= choices / 1000;
 }
 
 BlockMeans Stocks(const std::string& povray, const fs::path& work, const Case& c)
@@ -258,7 +294,7 @@ BlockMeans Ours(const std::string& povray, const fs::path& work, const Case& c)
 {
 	std::ofstream(work / "ours.pov") << Scene(c, true);
 	std::vector<Picture> pictures;
-	for (int seed = 0; seed < Seeds; ++seed)
+	for (int seed = 0; seed < (c.opening < 1e-3 ? Seeds : Groups); ++seed)
 	{
 		RunPovray(povray, work, "ours.pov", "ours.exr", Width, Height, {"Declare=Seed=" + std::to_string(seed)});
 		pictures.push_back(ReadExr((work / "ours.exr").string()));
@@ -279,8 +315,12 @@ try
 			continue;
 		const fs::path work = option["--work"];
 		fs::create_directories(work);
-		const Comparison result = Compare(Ours(option["--ours"], work, c), Stocks(option["--stock"], work, c), c.opening > 1e-3);
-		return (c.opening < 1e-3 ? JudgeSum(c, result) : JudgeBlocks(c, result)) ? 0 : 1;
+		const BlockMeans ours = Ours(option["--ours"], work, c), stock = Stocks(option["--stock"], work, c);
+		const Comparison result = Compare(ours, stock, c.opening > 1e-3);
+		if (c.opening < 1e-3)
+			return JudgeSum(c, result) ? 0 : 1;
+		const bool blocks = JudgeBlocks(c, result);
+		return JudgeSigns(c, ours, stock) && blocks ? 0 : 1;
 	}
 	throw std::runtime_error("no case '" + name + "'");
 }

@@ -6,6 +6,8 @@
 tiltcal=$(dirname "$ours")/tiltcal
 scenes=$here/../../scenes/board
 
+board='union { #include "board.inc"'
+
 # photographs STATE TILT DIRECTION CURVATURE [RIMS]
 photographs() {
 	state=$1 n=0 rims=${5:+vignetting optical $5}
@@ -14,7 +16,7 @@ photographs() {
 		printf '%s\n' '#version 3.7; global_settings { assumed_gamma 1 } background { rgb 0.35 }' "camera { tilt_lens {
 			lens_tilt $2 tilt_direction $3 focal_length 44.6 image_distance 48 aperture_diameter 16 field_curvature $4 $rims }
 			location 0 right 36*x up 24*y blur_samples 64 variance 0 }" \
-			'union { #include "board.inc" translate <-125, 87.5, 0>' \
+			"$board translate <-125, 87.5, 0>" \
 			"$(echo "$pose" | awk '{ print "rotate x*" $1, "rotate y*" $2, "rotate z*" $3, "translate z*" $4 }') }" > "$state-$n.pov"
 		render "$ours" "$state-$n.png" "$state-$n.pov" +W900 +H600 +WT2 "+L$scenes" +FN16 File_Gamma=srgb
 	done
@@ -44,6 +46,9 @@ calibrate() {
 
 case $case in
 plane)
+	# The board that tiltcal itself makes.
+	"$tiltcal" target --board 12x9 --square 25 --out target.inc > target.log 2>&1 || fail "tiltcal target: $(cat target.log)"
+	board='#include "target.inc" object { TiltCal_Target'
 	photographs untilted 0 0 0
 	photographs a 8 130 0
 	calibrate

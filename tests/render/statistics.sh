@@ -80,6 +80,9 @@ rays)
 	# miss it by less than independent ones would, 0.0012 (1 sigma).
 	rays rim 'aperture_diameter 0.4 vignetting optical 0.15, 0'
 	awk "BEGIN { exit !(($traced / 172800 - 0.5625) ^ 2 < 0.0036 ^ 2) }" || fail "the rim lets $traced of 172800 rays through"
+	# Where the bokeh pigment is black there is nothing to trace: half of the square, and all of the opening in the other.
+	rays black "aperture_diameter 0.4 } bokeh { pigment { gradient x color_map { [0.5 rgb 0] [0.5 rgb 1] } }"
+	awk "BEGIN { exit !(($traced / 172800 - 0.5) ^ 2 < 0.0036 ^ 2) }" || fail "half a bokeh lets $traced of 172800 rays through"
 	# The lens plane at 75 degrees cuts off 9 rows of 90, one of them in part (hard_cases.sh, empty).
 	rays behind 'aperture_diameter 0.2 lens_tilt 75'
 	[ "$traced" -gt $((172800 * 81 / 90)) ] && [ "$traced" -lt $((172800 * 82 / 90)) ] || fail "rays from behind the lens: $traced"
@@ -112,8 +115,6 @@ bound)
 		# 2048 samples err by a sixth of what 64 do: 1.5 % of their square.
 		specks truth $kind 1 '2048 variance 0'
 		for setting in '1, 64 variance 0.001' '2, 64 variance 0.0003' '4, 16 variance 0.01' '4, 64 variance 0.001' '8, 32 variance 0.003' '16, 256 variance 0.0003' '64 variance 0'; do
-			# Emission 100, up to 16 samples: clipped to white by a single hit, 0.73 to 0.88 of the truth is said (LIMITS.md).
-			[ "$kind, $setting" = 'bright, 4, 16 variance 0.01' ] && continue
 			for seed in 0 4; do
 				specks tested $kind $seed "$setting"
 				said=$(sed -n 's/Estimated Error: \(.*\) RMS.*/\1/p' tested.ppm.log)
@@ -121,7 +122,11 @@ bound)
 				echo "$kind, blur_samples $setting, seed $seed: said $said, is $true"
 				case $said in
 				">= "*) marked=$((marked + 1)) least=0 most=1.03 ;; # no more than the truth, which is known to 0.75 %: four times that
-				*) sure=$((sure + 1)) least=0.75 most=1.25 ;;
+				*)
+					sure=$((sure + 1)) least=0.75 most=1.25
+					# Emission 100, up to 16 samples: a single hit makes a pixel white (LIMITS.md). Known as other estimates are, to a factor of 1.58 (estimate.sh).
+					[ "$kind, $setting" = 'bright, 4, 16 variance 0.01' ] && least=0.63 most=1.58
+					;;
 				esac
 				awk "BEGIN { r = ${said#>= } / $true; exit !(r > $least && r < $most) }" || fail "$kind, $setting, seed $seed: said $said, is $true"
 			done

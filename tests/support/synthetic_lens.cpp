@@ -117,8 +117,9 @@ tiltcal::Photo Shoot(const Lens& lens, const Placed& pose, const Noise& noise, s
 	photo.height = 1200;
 	const auto camera = [&](double column, double row) 
 	{
-		const Real along = 2 * Real(column) / (board.InnerColumns() - 1) - 1;
-		return Vec(pose.R * Vec(board.X(column) * (1 + shape.widening), board.Y(row), shape.bend * (1 - along * along)) + pose.t);
+		const Real along = 2 * Real(column) / (board.InnerColumns() - 1) - 1, down = 2 * Real(row) / (board.InnerRows() - 1) - 1;
+		const Real height = shape.bend * (1 - along * along) + shape.bend_along_rows * (1 - down * down) + shape.twist * along * down;
+		return Vec(pose.R * Vec(board.X(column) * (1 + shape.widening), board.Y(row), height) + pose.t);
 	};
 	const auto pixel = [&](const Vec& P)
 	{

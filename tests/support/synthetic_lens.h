@@ -39,6 +39,7 @@ struct Shape
 {
 	double widening = 0;                   // of its columns, relative
 	double bend = 0;                       // height of the arc along the columns, from the first to the last corner, mm
+	double bend_along_rows = 0, twist = 0; // the same along the rows, and height of the corners, by turns up and down, mm
 };
 
 const double PITCH = 0.02;

@@ -73,6 +73,14 @@ foreach(folder IN LISTS library_rooms ITEMS calib/include/tiltcal povray-patch/l
 			file(RELATIVE_PATH name "${ROOT}" "${file}")
 			string(APPEND faults "${name}: prints, or names an option:\n${lines}\n")
 		endif()
+		# Fits use what the caller allows (AllThreads), not what some machine had.
+		if(file MATCHES "\\.cpp$")
+			file(STRINGS "${file}" lines REGEX "threads *= *[0-9]")
+			if(lines)
+				file(RELATIVE_PATH name "${ROOT}" "${file}")
+				string(APPEND faults "${name}: a number of threads of its own:\n${lines}\n")
+			endif()
+		endif()
 	endforeach()
 endforeach()
 

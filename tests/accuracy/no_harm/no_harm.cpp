@@ -41,8 +41,8 @@ struct Setting
 	std::string Text() const { return min > 0 ? fmt::format("{}, {} variance {:g}", min, max, variance) : fmt::format("{}", max); }
 };
 
-// Few samples, whose kernels are averaged; more, for which one is chosen (lens/denoise.h); and both in a picture.
-const Setting Settings[] = {{0, 8, 0}, {0, 32, 0}, {4, 64, 0.001}};
+// Few samples, whose kernels are averaged; more, for which one is chosen (lens/denoise.h); both in a picture; and pixels of one sample, which have no halves, beside others.
+const Setting Settings[] = {{0, 4, 0}, {0, 8, 0}, {0, 32, 0}, {4, 64, 0.001}, {1, 16, 0.01}};
 
 /// The scene as one that takes Race_Seed, Race_Denoise, Race_Min, Race_Max and Race_Variance from the command line.
 std::string Prepared(const std::string& text)
@@ -124,6 +124,8 @@ bool RunScene(const std::string& povray, const fs::path& scene, const fs::path& 
 			raw.push_back(renders.Render(setting, seed, false));
 			denoised.push_back(renders.Render(setting, seed, true));
 		}
+		if (raw[0].rgb == denoised[0].rgb)
+			throw std::runtime_error(fmt::format("blur_samples {}: denoise changes no pixel; does the scene take Race_Denoise?", setting.Text()));
 		const BlockHarm harm = CompareBlocks(raw, denoised, truth);
 		good &= Judge(fmt::format("{}, blur_samples {}", work.filename().string(), setting.Text()), harm);
 		lines += Line(harm);

@@ -97,7 +97,7 @@ try
 	fs::path scenes, settings_file, out, work;
 	std::vector<std::string> names;
 	std::string mode = "full", size;
-	bool quick = false, bench = false, list = false, reuse_stock = false;
+	bool quick = false, bench = false, list = false, reuse_stock = false, resume = false;
 	int jobs = 1;
 	CLI::App app{"Error against CPU time: tilt_lens, stock focal blur, averaged pinholes."};
 	app.add_option("--ours", programs.ours, "the patched povray")->required();
@@ -111,10 +111,11 @@ try
 	app.add_option("--jobs", jobs, "scenes at a time")->check(CLI::Range(1, 64));
 	CLI::Option *quickly = app.add_flag("--quick", quick, "smaller pictures, fewer settings");
 	CLI::Option *benched = app.add_flag("--bench", bench, "what a change is worth, in minutes: larger pictures, few settings; stock and the truths, by the first --ours, are made once and kept in --work")->excludes(quickly);
-	app.add_option("--size", size, "640x360 or 1920x1080: larger pictures, few settings, no tilted planes; of their middle alone")
+	app.add_option("--size", size, "640x360 or 1920x1080: larger pictures, few settings, no tilted planes; of the largest their middle alone")
 		->check(CLI::IsMember({"640x360", "1920x1080"}))->excludes(quickly)->excludes(benched);
 	app.add_flag("--list", list, "list the contests");
 	app.add_flag("--reuse-stock", reuse_stock, "take stock's pictures and times from an earlier race; for work on tilt_lens");
+	app.add_flag("--resume", resume, "go on with a race of the same programs that was stopped: what has run is taken from --work");
 	try
 	{
 		app.parse(argc, argv);
@@ -127,10 +128,10 @@ try
 		mode = quick ? "quick" : "bench";
 	else if (!size.empty())
 		mode = size;
-	reuse_stock |= bench;
+	const Reuse reuse = resume ? Reuse::ALL : reuse_stock || bench ? Reuse::STOCK : Reuse::NOTHING;
 	RaceReport report;
 	report.settings = ReadSettings(settings_file, mode);
-	report.reused_stock = reuse_stock;
+	report.reused = reuse;
 
 	std::vector<Entry> entries;
 	for (const RaceScene& scene : ReadScenes(scenes))
@@ -188,7 +189,7 @@ try
 			try
 			{
 				const Renderer renderer(programs, entry.scene, work, entry.Name(), report.settings);
-				Contest contest = RunContest(renderer, entry.scene, entry.tilted, report.settings, reuse_stock, say);
+				Contest contest = RunContest(renderer, entry.scene, entry.tilted, report.settings, reuse, say);
 				const std::lock_guard<std::mutex> lock(mutex);
 				finished[i] = std::move(contest);
 				write();

@@ -88,8 +88,8 @@ std::vector<Setting> Interleaved(const RaceSettings& settings, bool stock, bool 
 class Measurement
 {
 public:
-	Measurement(Contest& to_fill, const Renderer& with, const RaceSettings& all, bool reuse_stock, const Picture* stocks_limit)
-		: contest(to_fill), renderer(with), settings(all), reuse(reuse_stock), limit(stocks_limit) {}
+	Measurement(Contest& to_fill, const Renderer& with, const RaceSettings& all, Reuse of_earlier, const Picture* stocks_limit)
+		: contest(to_fill), renderer(with), settings(all), reuse(of_earlier), limit(stocks_limit) {}
 
 	void First(const Setting& setting)
 	{
@@ -138,7 +138,7 @@ private:
 	Rendered Render(Setting setting, int repeat) const
 	{
 		setting.tilted = contest.tilted;
-		return renderer.RenderOrReuse(setting, reuse && setting.opponent == Opponent::STOCK, repeat);
+		return renderer.RenderOrReuse(setting, reuse == Reuse::ALL || (reuse == Reuse::STOCK && setting.opponent == Opponent::STOCK), repeat);
 	}
 
 	// A run can be shorter than the clock's grain or the start-up's scatter.
@@ -160,7 +160,7 @@ private:
 	Contest& contest;
 	const Renderer& renderer;
 	const RaceSettings& settings;
-	bool reuse;
+	Reuse reuse;
 	const Picture* limit;
 	std::map<Opponent, double> per_sample;
 	std::map<std::string, Picture> pictures; // ours, by label
@@ -289,7 +289,7 @@ Ratio RelMseRatioAt(const Contest& contest, Opponent opponent, double rel_mse, S
 }
 
 Contest RunContest(const Renderer& renderer, const RaceScene& scene, bool tilted, const RaceSettings& settings,
-	bool reuse_stock, const Say& say)
+	Reuse reuse, const Say& say)
 {
 	Contest contest;
 	contest.scene = scene;
@@ -313,7 +313,7 @@ Contest RunContest(const Renderer& renderer, const RaceScene& scene, bool tilted
 	contest.start_up[Opponent::OURS] = contest.start_up[Opponent::RAW] = contest.start_up[Opponent::FIXED] = contest.start_up[Opponent::GRID] = renderer.StartUp(Opponent::OURS, tilted);
 
 	std::vector<Setting> order = Interleaved(settings, !tilted, scene.area_lights);
-	Measurement measurement(contest, renderer, settings, reuse_stock, tilted ? nullptr : &limit);
+	Measurement measurement(contest, renderer, settings, reuse, tilted ? nullptr : &limit);
 	for (int repeat = 0; repeat < settings.short_repeats; ++repeat)
 	{
 		for (std::size_t i = 0; i < order.size(); ++i)

@@ -60,4 +60,4 @@ Ratio RelMseRatioAt(const Contest& contest, Opponent opponent, double rel_mse, S
 
 // `say` receives a line at every step.
 Contest RunContest(const Renderer& renderer, const RaceScene& scene, bool tilted, const RaceSettings& settings,
-	bool reuse_stock, const std::function<void(const std::string&)>& say);
+	Reuse reuse, const std::function<void(const std::string&)>& say);

@@ -2,6 +2,8 @@
 
 #include "race_report.h"
 
+#include "lens/denoise.h"
+
 #include <fmt/format.h>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -16,6 +18,13 @@ namespace fs = std::filesystem;
 
 namespace
 {
+
+// Pixels that denoise has traced over those that are judged, all of them inside the picture.
+double MarginsOfDenoise(const RaceSettings& s)
+{
+	const double margin = 2 * tilt_lens::DenoiseReach;
+	return (s.judged_width + margin) * (s.judged_height + margin) / (double(s.judged_width) * s.judged_height);
+}
 
 const char* head = R"(<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width"><title>What accuracy costs</title>
@@ -287,9 +296,11 @@ void WritePage(const RaceReport& report, const fs::path& out, const fs::path& wo
 		"<li>Truths are the mean of independent sets of tilt_lens's fixed samples"
 		<< (report.settings.check_frames > 0 ? ", and are checked against averaged pinholes of stock, which share no code with them.</li>\n"
 			: "; those of the small pictures (160 x 120) are checked against averaged pinholes of stock.</li>\n")
-		<< (report.settings.judged_width < report.settings.width ? fmt::format("<li>Rendered, timed and judged are the {} x {} pixels in the middle.</li>\n",
-			report.settings.judged_width, report.settings.judged_height) : "")
-		<< (report.reused_stock ? "<li><b>Stock's times come from an earlier race</b>: not interleaved.</li>\n" : "") << "</ul>\n";
+		<< (report.settings.judged_width < report.settings.width ? fmt::format("<li>Rendered, timed and judged are the {} x {} pixels in the middle. What looks at neighbours traces more of them, 24 on every side with <code>denoise</code>, "
+			"which a whole picture does not need: {:.2f} times as many pixels as are judged, held against ours.</li>\n",
+			report.settings.judged_width, report.settings.judged_height, MarginsOfDenoise(report.settings)) : "")
+		<< (report.reused == Reuse::STOCK ? "<li><b>Stock's times come from an earlier race</b>: not interleaved.</li>\n"
+			: report.reused == Reuse::ALL ? "<li>The race was stopped and gone on with: what had run by then was not run again.</li>\n" : "") << "</ul>\n";
 	for (const Contest& contest : report.contests)
 		file << Section(contest, report, work);
 	for (const char* name : {"tiltcost.html", "gallery-seconds.html", "cost-of-nothing.html", "calibrator-cost.html", "calibrator-ablation.html"})

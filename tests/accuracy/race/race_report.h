@@ -14,7 +14,7 @@ struct RaceReport
 	RaceSettings settings;
 	Programs programs;
 	std::string conditions; // machine, day, mode
-	bool reused_stock = false;
+	Reuse reused = Reuse::NOTHING;
 };
 
 // points.csv, ratios.csv (each ratio without denoise and at the best) and truths.csv.

@@ -31,6 +31,14 @@ struct Setting
 std::string Label(const Setting& setting);
 const char* Name(Opponent opponent);
 
+// What is taken of an earlier race with the same programs, scenes and settings.
+enum class Reuse
+{
+	NOTHING,
+	STOCK, // its pictures and times
+	ALL // of both sides: a race that was stopped goes on
+};
+
 struct RaceScene
 {
 	std::string name; // of the file

@@ -142,6 +142,17 @@ TEST(RaceRatios, SizesStandBesideThisRaces)
 	WriteTables(large, size);
 	const std::string text = SizesSection(report, out);
 	EXPECT_NE(text.find("<td>shed</td><td>3.00 / 6.00</td><td>4.00 / 12.00</td>"), std::string::npos) << text;
+
+	// The largest size has one of two scenes: the other stays, and each mean is of the scenes that its size has.
+	large.contests.push_back(Made(2, 4, 6));
+	large.contests[1].scene.name = "barn";
+	WriteTables(large, size);
+	std::filesystem::create_directory(out / "1920x1080");
+	WriteTables(report, out / "1920x1080");
+	const std::string both = SizesSection(report, out);
+	EXPECT_NE(both.find("<td>barn</td><td>-</td><td>3.00 / 6.00</td><td>-</td>"), std::string::npos) << both;
+	EXPECT_NE(both.find("<td>shed</td><td>3.00 / 6.00</td><td>4.00 / 12.00</td><td>3.00 / 6.00</td>"), std::string::npos) << both;
+	EXPECT_NE(both.find("<td>geometric mean</td><td>3.00 / 6.00</td><td>3.46 / 8.49</td><td>3.00 / 6.00</td>"), std::string::npos) << both;
 }
 
 TEST(RaceRatios, LinesForATerminalHaveBothSidesOfEveryContest)
@@ -168,17 +179,18 @@ TEST(RaceSettings, BenchHasNoPinholesAndCountsTheSmallestNumbersOfSamples)
 		EXPECT_FALSE(list->empty());
 }
 
-// Judged in the middle only where nothing else asks for the whole picture.
+// Of the smaller size whole pictures are judged, and stock's grids on the lamps, which the larger one's middle has not.
 TEST(RaceSettings, SizesAreThoseOfTheirNames)
 {
 	const RaceSettings half = ReadSettings(RACE_SETTINGS, "640x360"), full = ReadSettings(RACE_SETTINGS, "1920x1080");
 	EXPECT_EQ(half.width, 640);
-	EXPECT_EQ(half.judged_width, 320);
-	EXPECT_EQ(half.judged_height, 180);
+	EXPECT_EQ(half.judged_width, 640);
+	EXPECT_EQ(half.judged_height, 360);
 	EXPECT_EQ(full.height, 1080);
 	EXPECT_LT(full.judged_width, full.width);
 	EXPECT_EQ(full.pinhole_frames, 0);
 	EXPECT_TRUE(full.grid.empty());
+	EXPECT_FALSE(half.grid.empty());
 	EXPECT_FALSE(ReadSettings(RACE_SETTINGS, "full").grid.empty());
 }
 
