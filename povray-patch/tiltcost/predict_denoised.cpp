@@ -18,6 +18,13 @@ namespace
 
 double Clipped(double x) { return std::min(1.0, std::max(0.0, x)); }
 
+/// Sums over a block's inner pixels.
+struct Errors
+{
+	double denoised = 0, raw = 0;      ///< squared
+	double pixels = 0;
+};
+
 /// Pixels so near a block's edge lack neighbours that they have in the picture.
 const int EdgePixels = 4;
 
@@ -59,19 +66,11 @@ void Pilot::AddDenoised(const Block& block, const std::vector<size_t>& known, st
 /// The sum of squared errors. m(N) is off by v(N) itself; of that the pixel's own mean, the first of the same samples, has v(N) in common
 /// with it (as independent samples do, whatever their numbers). With a share w of it in the denoised value d,
 ///   E (d - truth)^2 = E (d - m(N))^2 + (2 w - 1) v(N),
-/// and at least w^2 v(N), the own mean's.
+/// and at least w^2 v(N), the own mean's. Of one block: where a setting takes the pilot's own samples the first is a difference of two that are nearly alike, and
+/// below the second in some blocks, which must not make up for others.
 double Pilot::DenoisedClass::SquaredErrors() const
 {
 	return std::max(off + 2 * kept.SumOfVariances() - changes.SumOfVariances(), kept_squared.SumOfVariances());
-}
-
-void Pilot::DenoisedClass::Add(const DenoisedClass& o, double weight)
-{
-	off += weight * o.off;
-	raw_off += weight * o.raw_off;
-	changes += o.changes * weight;
-	kept += o.kept * weight;
-	kept_squared += o.kept_squared * weight;
 }
 
 /// What denoise makes of the error in the few pixels that have all their neighbours, times the error without of all pixels: where a picture is
@@ -80,30 +79,32 @@ double Pilot::PredictDenoised(const Setting& setting, std::vector<double>* left_
 {
 	const std::vector<tilt_lens::SampleLevel> levels = tilt_lens::SampleLevels(setting.min, setting.max, setting.variance, setting.confidence, &Chi2);
 	const size_t count = Known(samples) + 1;
-	std::vector<std::vector<DenoisedClass>> classes(blocks.size(), std::vector<DenoisedClass>(count));
+	std::vector<Errors> errors(blocks.size());
 	for (size_t b = 0; b < blocks.size(); ++b)
 	{
 		tiltcal::CheckInterrupt();     // some seconds for a table
 		std::vector<size_t> known;
 		for (const size_t level : LevelsOf(blocks[b], levels))
 			known.push_back(Known(levels[level].samples));
-		AddDenoised(blocks[b], known, classes[b]);
+		std::vector<DenoisedClass> classes(count);
+		AddDenoised(blocks[b], known, classes);
+		for (const DenoisedClass& of : classes)
+			if (of.changes.pixels > 0)
+			{
+				errors[b].denoised += of.SquaredErrors();
+				errors[b].raw += of.RawSquaredErrors();
+				errors[b].pixels += of.changes.pixels;
+			}
 	}
 	const auto error = [&](int without)
 	{
 		double denoised = 0, raw = 0, pixels = 0;
 		const std::vector<double> weights = Weights(without, without < 0 ? 1 : parts);
-		for (size_t k = 0; k < count; ++k)
+		for (size_t b = 0; b < blocks.size(); ++b)
 		{
-			DenoisedClass of;
-			for (size_t b = 0; b < blocks.size(); ++b)
-				if (weights[b] > 0)
-					of.Add(classes[b][k], weights[b]);
-			if (of.changes.pixels == 0)
-				continue;
-			denoised += of.SquaredErrors();
-			raw += of.RawSquaredErrors();
-			pixels += of.changes.pixels;
+			denoised += weights[b] * errors[b].denoised;
+			raw += weights[b] * errors[b].raw;
+			pixels += weights[b] * errors[b].pixels;
 		}
 		return raw > 0 ? Predict(setting, without, without < 0 ? 1 : parts).error * std::sqrt(denoised / raw) : std::sqrt(denoised / pixels);
 	};

@@ -125,7 +125,6 @@ private:
 		double off = 0, raw_off = 0;                ///< squared distances of the denoised ones, and of the others, from m(N)
 		tilt_lens::LevelChanges changes, kept, kept_squared;    ///< all, and by the shares that pixels keep of their own means, and the shares' squares
 
-		void Add(const DenoisedClass& o, double weight);
 		double SquaredErrors() const;
 		double RawSquaredErrors() const { return raw_off + changes.SumOfVariances(); }
 	};
