@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <limits>
 #include <random>
@@ -14,8 +13,6 @@
 
 #include "lens/denoise.h"
 #include "lens/kernels.h"
-#include "lens/pupil.h"
-#include "lens/sampler.h"
 
 using namespace tilt_lens;
 
@@ -273,126 +270,6 @@ TEST(Denoise, AnInfiniteLightSpoilsNothingElse)
 			for(size_t i = 0; i < r.channels[c].size(); i++)
 				ASSERT_TRUE((c == 0 && i == sun) || (r.channels[c][i] > -1.0f && r.channels[c][i] < 2.0f)) << count << ": " << c << ", " << i;
 	}
-}
-
-namespace
-{
-
-/// A flat wall with bright specks on it, out of focus: a lens sample sees it `blur` pixels away at most. Density as of 200 specks
-/// in 160 x 120 pixels.
-struct Specks
-{
-	static const int Width = 96, Height = 72, Count = 72;
-	double blur, radius = 0.7, emission = 8.0, wall = 0.4;
-	double x[Count], y[Count];
-
-	explicit Specks(double blur_radius) : blur(blur_radius)
-	{
-		std::mt19937 random(5);
-		for(int i = 0; i < Count; i++)
-		{
-			x[i] = std::ldexp(double(random()), -32) * Width;
-			y[i] = std::ldexp(double(random()), -32) * Height;
-		}
-	}
-
-	/// Means of all and of the first half of a pixel's samples.
-	void Sample(int px, int py, int samples, unsigned seed, double& all, double& half) const
-	{
-		std::vector<int> near;
-		for(int i = 0; i < Count; i++)
-			if(std::hypot(x[i] - px - 0.5, y[i] - py - 0.5) < blur + radius + 0.8)
-				near.push_back(i);
-		PixelSampler sampler(px, py, seed);
-		double sum = 0.0;
-		for(int i = 0; i < samples; i++)
-		{
-			const LensSample s = sampler.Next();
-			const PupilPoint p = SquareToDisc(s.lens_u, s.lens_v);
-			const double u = px + s.pixel_x + blur * p.x, v = py + s.pixel_y + blur * p.y;
-			const auto hit = [&](int k) { return std::hypot(x[k] - u, y[k] - v) < radius; };
-			sum += std::any_of(near.begin(), near.end(), hit) ? emission : wall;
-			if(2 * (i + 1) == samples)
-				half = sum / (i + 1);
-		}
-		all = sum / samples;
-	}
-};
-
-/// Squared errors of a block, as shown.
-double ShownError(const std::vector<float>& picture, const std::vector<double>& truth, int block)
-{
-	const int columns = Specks::Width / JudgedBlock, x0 = block % columns * JudgedBlock, y0 = block / columns * JudgedBlock;
-	double sum = 0.0;
-	for(int y = y0; y < y0 + JudgedBlock; y++)
-		for(int x = x0; x < x0 + JudgedBlock; x++)
-		{
-			const size_t i = size_t(y) * Specks::Width + x;
-			sum += std::pow(std::min(1.0, std::max(0.0, double(picture[i]))) - std::min(1.0, truth[i]), 2);
-		}
-	return sum;
-}
-
-}
-
-// Lights as small as a pixel, from sharp to discs of six pixels, 8 samples: no block may be worse than without denoise by more than
-// noise. 24 seeds; worse is more than 10 % of its RMS error, and by more than 3.49 standard errors, Student's t at 0.001 of 23
-// degrees of freedom. By chance that are 0.43 of 432 blocks; more than four come once in 10,000 (Poisson).
-TEST(Denoise, MakesNoBlockWorseAroundHighlights)
-{
-	const int seeds = 24, samples = 8, blocks = Specks::Width * Specks::Height / (JudgedBlock * JudgedBlock);
-	int worse = 0, once = 0, judged = 0;
-	for(double blur : { 0.0, 1.0, 3.0, 6.0 })
-	{
-		const Specks specks(blur);
-		std::vector<double> truth(Specks::Width * Specks::Height);
-		double unused = 0.0;
-		for(size_t i = 0; i < truth.size(); i++)
-			specks.Sample(int(i) % Specks::Width, int(i) / Specks::Width, 2048, 1000, truth[i], unused);
-		std::vector<double> raw(blocks), change(blocks), squares(blocks);
-		double before = 0.0, after = 0.0;
-		for(int seed = 0; seed < seeds; seed++)
-		{
-			NoisyPicture p;
-			p.Resize(Specks::Width, Specks::Height);
-			for(size_t i = 0; i < truth.size(); i++)
-			{
-				double all, half = 0.0;
-				specks.Sample(int(i) % Specks::Width, int(i) / Specks::Width, samples, seed, all, half);
-				for(int c = 0; c < 3; c++)
-				{
-					p.mean[c][i] = float(all);
-					p.first[c][i] = float(half);
-				}
-				p.count[i] = samples;
-			}
-			const Result r = Denoise(p, Wave);      // its errors mean nothing here
-			for(int b = 0; b < blocks; b++)
-			{
-				const double own = ShownError(p.mean[1], truth, b), made = ShownError(r.channels[1], truth, b);
-				raw[b] += own / seeds;
-				change[b] += (made - own) / seeds;
-				squares[b] += (made - own) * (made - own) / seeds;
-				once += made > 1.21 * own + 1e-9;
-				judged++;
-				before += own;
-				after += made;
-			}
-		}
-		for(int b = 0; b < blocks; b++)
-		{
-			const double error = std::sqrt(std::max(0.0, squares[b] - change[b] * change[b]) / (seeds - 1));
-			worse += change[b] > 0.21 * raw[b] && change[b] > 3.49 * error;
-		}
-		std::printf("blur %.0f: RMS error %.4f, denoised %.4f\n", blur, std::sqrt(before / seeds / truth.size()), std::sqrt(after / seeds / truth.size()));
-		// Where there is much to gain, most of it still is: a judge that always said no would pass the rest.
-		if(blur >= 3.0)
-		{
-			EXPECT_LT(after, 0.6 * before) << blur;
-		}
-	}
-	std::printf("worse in one picture: %.1f %% of blocks; in the mean of all: %d\n", 100.0 * once / judged, worse);
-	EXPECT_LE(worse, 4);
 }
 
 TEST(Kernels, WeighOneInSumAndNothingAtTheCentre)
