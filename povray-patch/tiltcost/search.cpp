@@ -5,9 +5,12 @@
 #include "lens/denoise.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <ctime>
+#include <future>
 #include <random>
+#include <thread>
 
 namespace tiltcost
 {
@@ -55,13 +58,31 @@ std::vector<Setting> Grid()
 std::vector<Row> AllRows(const Pilot& pilot, const Machine& machine, const std::function<void(double)>& progress)
 {
 	const std::vector<Setting> grid = Grid();
-	std::vector<Row> all;
-	for (const Setting& setting : grid)
+	std::vector<Row> all(grid.size());
+	std::atomic<size_t> next{0};
+	const auto work = [&](const std::function<void(double)>& say)
 	{
-		all.push_back(MakeRow(pilot, machine, setting));
-		if (progress)
-			progress(double(all.size()) / double(grid.size()));
+		for (size_t i; (i = next++) < grid.size();)
+		{
+			all[i] = MakeRow(pilot, machine, grid[i]);
+			if (say)
+				say(double(i + 1) / double(grid.size()));
+		}
+	};
+	std::vector<std::future<void>> helpers;
+	for (unsigned k = 1; k < std::thread::hardware_concurrency(); ++k)
+		helpers.push_back(std::async(std::launch::async, work, nullptr));
+	try
+	{
+		work(progress);
 	}
+	catch (...)   // an interrupt: they are not to finish the rest
+	{
+		next = grid.size();
+		throw;
+	}
+	for (std::future<void>& helper : helpers)
+		helper.get();
 	// Of equals the one with the larger minimum: it relies least on few samples.
 	std::stable_sort(all.begin(), all.end(), [](const Row& a, const Row& b)
 	{
