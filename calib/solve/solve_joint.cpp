@@ -55,11 +55,12 @@ bool RefineJointly(const Task& task, Refinement kind, Geometry& geometry, Soluti
 	Unknowns x = UnknownsOf(solution);
 	x.untilted_free = task.untilted_free;
 	JointFit fit{ task, solution.lens, kind, {}, false };
-	if (fit.Residuals(g, x).empty())   // no edges: nothing to tell the lens by
-		return false;
 	for (int round = 0; round < 2; ++round)
 	{
-		fit.error = ErrorOf(fit.Residuals(g, x));
+		const auto residuals = fit.Residuals(g, x);
+		if (residuals.empty())   // no edges: nothing to tell the lens by
+			return false;
+		fit.error = ErrorOf(residuals);
 		if (!fit.Minimise(g, x))
 			return false;
 		SetNormals(fit, x, g);

@@ -9,20 +9,14 @@
 #include "model/pose_difference.h"
 #include "report/write_csv.h"
 #include "report/write_json.h"
-#include "solve/least_squares.h"
 #include "support/synthetic_lens.h"
 
-#include <ceres/autodiff_cost_function.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-
-#ifdef __linux__
-#include <sched.h>
-#endif
 
 namespace
 {
@@ -419,56 +413,5 @@ TEST(BoardsAndPeople, WhatIsKnownBetterFollowsTheCorrelationsSign)
 	for (const char* const words : { "their ratio", "their product", "their difference", "their sum", "their combination" })
 		EXPECT_THAT(remarks, Says(words));
 }
-
-struct Rosenbrock
-{
-	template<typename T>
-	bool operator()(const T* x, T* residual) const
-	{
-		residual[0] = T(10) * (x[1] - x[0] * x[0]);
-		residual[1] = T(1) - x[0];
-		return true;
-	}
-};
-
-TEST(LeastSquares, TheLimitOfIterationsIsNoConvergence)
-{
-	const auto solve = [](int iterations, bool may_stop_early)
-	{
-		double x[2] = { -1.2, 1 };
-		ceres::Problem problem;
-		problem.AddResidualBlock(new ceres::AutoDiffCostFunction<Rosenbrock, 2, 2>(new Rosenbrock), nullptr, x);
-		LeastSquares how{ ceres::DENSE_QR, iterations, 1e-12 };
-		how.may_stop_early = may_stop_early;
-		return SolveLeastSquares(how, problem).has_value();
-	};
-	EXPECT_FALSE(solve(3, false));
-	EXPECT_TRUE(solve(3, true));
-	EXPECT_TRUE(solve(200, false));
-}
-
-#ifdef __linux__
-TEST(LeastSquares, OneThreadFindsTheSame)
-{
-	const Task task = Named({ Photograph("untilted", Lens(), NoiseOf(1)), Photograph("tilted", Tilted(5), NoiseOf(2)) });
-	cpu_set_t all, one;
-	ASSERT_EQ(sched_getaffinity(0, sizeof(all), &all), 0);
-	if (CPU_COUNT(&all) < 2)
-		GTEST_SKIP() << "one processor";
-	EXPECT_GT(AllThreads(), 1);
-	const Calibration many = Calibrate(task, PLANE);
-	CPU_ZERO(&one);
-	for (int k = 0; k < CPU_SETSIZE && CPU_COUNT(&one) == 0; ++k)
-		if (CPU_ISSET(k, &all))
-			CPU_SET(k, &one);
-	ASSERT_EQ(sched_setaffinity(0, sizeof(one), &one), 0);
-	EXPECT_EQ(AllThreads(), 1);
-	const Calibration single = Calibrate(task, PLANE);
-	sched_setaffinity(0, sizeof(all), &all);
-	// Where it stops may differ within the tolerance of the cost, 1e-9: 1e-4 of a sigma.
-	EXPECT_NEAR(many.solution.w_mm.value, single.solution.w_mm.value, 1e-3 * single.solution.w_mm.sigma);
-	EXPECT_NEAR(many.solution.states[1].lens_tilt.value, single.solution.states[1].lens_tilt.value, 1e-3 * single.solution.states[1].lens_tilt.sigma);
-}
-#endif
 
 }

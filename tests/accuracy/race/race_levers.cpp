@@ -188,7 +188,7 @@ std::string SizesSection(const RaceReport& report, const fs::path& out)
 		return "";
 	std::string text = "<h3>Larger pictures</h3>\n<p>Time of stock's best setting over ours, raw / best, geometric means over the errors above. Larger pictures of a scene have less in a pixel, "
 		"so that the same error takes fewer samples; below stock's least setting nothing can be gained. The sizes are not of one region: the whole picture at 160 x 120 and 640 x 360, "
-		"the middle quarter each way at 1920 x 1080, where denoise has the pixels around it to trace too, 1.30 times as many. Means are of the scenes that a size has. Curves: the pages behind the sizes.</p>\n<table><tr><th>scene</th>";
+		"the middle quarter each way at 1920 x 1080, where denoise has the pixels around it to trace too (how many: that page). Means are of the scenes that a size has. Curves: the pages behind the sizes.</p>\n<table><tr><th>scene</th>";
 	for (const auto& size : sizes)
 		text += "<th>" + size.first + "</th>";
 	text += "</tr>\n";
