@@ -67,7 +67,7 @@ steps) # what the real table runs exists
 		        script = re.match(r"(?:sh|python3) (\S+)", part)
 		        assert not script or open(source + "/" + script[1]), line
 		found = {line.split(" ")[0] for line in lines}
-		wanted = {"release-build", "profile", "dev-build", "dev-tests", "asan-build", "asan-unit", "asan-calib", "asan-cli", "asan-render", "asan-cluster", "asan-slow", "fuzz-blocks", "fuzz-pictures", "fuzz-inputs", "fuzz-coverage", "package", "race", "tiltcost-predictions", "calibrator-coverage", "calibrator-cost", "paper", "long", "no-harm"}
+		wanted = {"release-build", "profile", "dev-build", "dev-tests", "asan-build", "asan-unit", "asan-calib", "asan-cli", "asan-render", "asan-cluster", "asan-slow", "fuzz-blocks", "fuzz-pictures", "fuzz-inputs", "fuzz-coverage", "package", "race", "tiltcost-predictions", "calibrator-coverage", "simulated-cameras", "calibrator-cost", "paper", "long", "no-harm"}
 		assert wanted == found, wanted ^ found
 		# What is tested is built in the same step: not what an earlier commit left.
 		for line in lines:
