@@ -128,20 +128,21 @@ std::string ReadText(const std::string& file, const std::string& what, size_t mo
 	return text;
 }
 
-void PrepareFolder(const std::string& folder)
+void PrepareFolder(const std::string& folder, const std::string& input)
 {
+	const std::string another = input.empty() ? "write elsewhere" : fmt::format("give another with `{}`", input);
 	std::error_code code;
 	fs::create_directories(folder, code);
 	if (code || !fs::is_directory(folder))
-		throw FileError(fmt::format("{}: cannot create this folder ({}); give another with `out`",
-			folder, code ? code.message() : "a file of this name is in the way"));
+		throw FileError(fmt::format("{}: cannot create this folder ({}); {}",
+			folder, code ? code.message() : "a file of this name is in the way", another));
 	try
 	{
 		fs::remove(NewTemporary({ Join(folder, "probe"), false }), code);
 	}
 	catch (const Error&)
 	{
-		throw FileError(fmt::format("{}: cannot write in this folder; change its permissions or give another with `out`", folder));
+		throw FileError(fmt::format("{}: cannot write in this folder; change its permissions or {}", folder, another));
 	}
 }
 
@@ -155,7 +156,7 @@ void PrepareFolderOf(const std::string& file)
 		return;
 	}
 	const std::string folder = fs::path(place.path).parent_path().string();
-	PrepareFolder(folder.empty() ? "." : folder);
+	PrepareFolder(folder.empty() ? "." : folder, "");
 }
 
 std::string Stem(const std::string& file) { return fs::path(file).stem().string(); }

@@ -28,8 +28,8 @@ void NeedRegularFile(const std::string& file, const std::string& what);
 std::string ReadText(const std::string& file, const std::string& what, size_t most = 64 << 20);
 
 /// Creates the folder (and its parents) and proves that a file can be written in it.
-/// Throws FileError. Called before the work starts, not after it.
-void PrepareFolder(const std::string& folder);
+/// Throws FileError, which says to give another with `input` where one is named. Called before the work starts, not after it.
+void PrepareFolder(const std::string& folder, const std::string& input = "out");
 
 /// PrepareFolder for the folder that `file`, or what it links to, is to be written in. A device must be writable itself.
 void PrepareFolderOf(const std::string& file);

@@ -32,10 +32,10 @@ Thirds SeenThirds(const Task& task);
 /// "upper left", .. "middle", .. "lower right".
 const char* NameOfThird(size_t third);
 
-/// "parallel to the sensor", "its right side farther away by a fifth".
+/// "nearly parallel to the sensor", "its right side 20 % farther away than what is across".
 std::string StanceWords(const Stance& stance);
 
-/// A direction on the board: "upper", "upper right", ..; 0 up, 90 right.
+/// A direction on the board: "upper side", "upper right corner", ..; 0 up, 90 right.
 const char* SideWords(double recedes_deg);
 
 }

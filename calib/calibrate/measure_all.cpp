@@ -85,6 +85,14 @@ void CheckPitch(double pitch_mm)
 		throw UsageError(fmt::format("`pitch` {}: give the distance of pixel centres on the sensor in mm, such as 0.00655", pitch_mm));
 }
 
+void CheckEdgesPerPhoto(int edges_per_photo)
+{
+	// Six edges of each direction reach all quarters of the board (test_spread_order.cpp).
+	const int fewest = 12;
+	if (edges_per_photo != 0 && edges_per_photo < fewest)
+		throw UsageError(fmt::format("`edges_per_photo` {}: give 0 for all edges, or at least {}", edges_per_photo, fewest));
+}
+
 Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, double pitch_mm, const MeasureOptions& options)
 {
 	return MeasureAll(states, board, pitch_mm, options, {});
@@ -133,6 +141,7 @@ Task MeasureAll(const std::vector<StateFiles>& states, const Board& board, doubl
 {
 	const QuietLibraries quiet;
 	const UseThreads threads(o.threads);
+	CheckEdgesPerPhoto(o.edges_per_photo);
 	TaskOfPhotographs photographs(states, board, pitch_mm);
 	std::vector<std::pair<size_t, std::string>> files;    // of `states`, file
 	for (size_t s = 0; s < states.size(); ++s)

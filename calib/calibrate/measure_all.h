@@ -26,6 +26,9 @@ struct MeasuredPhotograph
 	size_t hash = 0;   ///< of its pixels
 };
 
+/// Throws UsageError for fewer edges than tell anything of a board; 0 is all.
+void CheckEdgesPerPhoto(int edges_per_photo);
+
 /// `grey` receives its brightness in linear light. Throws Error.
 MeasuredPhotograph MeasureOne(const std::string& file, const Board& board, const MeasureOptions& options, cv::Mat& grey);
 

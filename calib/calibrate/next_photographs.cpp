@@ -7,6 +7,10 @@
 #include "calibrate/next_words.h"
 #include "calibrate/optimal_design.h"
 
+#include <tiltcal/error.h>
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -187,7 +191,11 @@ std::vector<ExpectedSigma> ExpectSigmas(const Calibration& c, const std::vector<
 {
 	std::vector<std::vector<Photo>> photos;
 	for (const NextPhotograph& look : photographs)
+	{
 		photos.push_back(PhotosOf(c, look));
+		if (photos.back().empty())
+			throw Refused(fmt::format("{}: no edge of the board would be seen", look.text));
+	}
 	Design design(c);
 	design.Prepare(photographs, std::move(photos));
 	std::vector<size_t> all;

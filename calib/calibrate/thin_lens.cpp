@@ -50,11 +50,13 @@ bool SameCounts(const Task& task)
 	return true;
 }
 
-/// RMS of the reprojection if the board stood still between the states; none where no camera has such poses.
-std::optional<double> RmsOfSharedPoses(const Task& task, const std::vector<Vec3<double>>& normals)
+/// RMS of the reprojection, with distortion or, where that cannot be told too, without; none where no camera has such poses.
+std::optional<double> RmsOfPoses(const Task& task, const std::vector<Vec3<double>>& normals, bool shared)
 {
-	const std::optional<Geometry> shared = SolveGeometryIfDetermined(task, { 2, normals, true });
-	return shared ? std::optional(shared->rms) : std::nullopt;
+	for (const int terms : { 2, 0 })
+		if (const std::optional<Geometry> g = SolveGeometryIfDetermined(task, { terms, normals, shared }))
+			return g->rms;
+	return std::nullopt;
 }
 
 /// The camera without distortion, fitted as such, and the lens beside it.
@@ -183,8 +185,10 @@ bool PosesAreShared(const Task& task, const std::vector<Vec3<double>>& normals, 
 	}
 	if (o.poses == Poses::SHARED)
 		return true;
-	const double own = SolveGeometry(task, { 2, normals, false }).rms;
-	const std::optional<double> shared = RmsOfSharedPoses(task, normals);
+	const std::optional<double> by_themselves = RmsOfPoses(task, normals, false);
+	// Says why there is none.
+	const double own = by_themselves ? *by_themselves : SolveGeometry(task, { 0, normals, false }).rms;
+	const std::optional<double> shared = RmsOfPoses(task, normals, true);
 	const bool same = shared && *shared < 2 * own + 0.1;
 	o.log.Info(fmt::format("board poses {} between the states: reprojection {} if shared, {:.3f} px with own poses", same ? "shared" : "differ",
 		shared ? fmt::format("{:.3f} px", *shared) : "without an answer", own));

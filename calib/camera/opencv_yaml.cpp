@@ -214,7 +214,7 @@ void FromOpenCv(const OpenCvCamera& opencv, StateCamera& camera)
 	camera.field_curvature_per_mm = 0;
 }
 
-void WriteOpenCv(const StateCamera& camera, const std::string& file)
+std::string OpenCvText(const StateCamera& camera, const std::string& file)
 {
 	CheckSuffix("`opencv`", file);
 	const OpenCvCamera c = ToOpenCv(camera);
@@ -240,8 +240,10 @@ void WriteOpenCv(const StateCamera& camera, const std::string& file)
 		out.writeComment(CommentLine(line));
 	out << "image_width" << camera.width << "image_height" << camera.height << "camera_matrix" << cv::Mat(K)
 		<< "distortion_coefficients" << coefficients << "opencv_from_tiltcal" << cv::Mat(frame);
-	WriteText(file, out.releaseAndGetString());
+	return out.releaseAndGetString();
 }
+
+void WriteOpenCv(const StateCamera& camera, const std::string& file) { WriteText(file, OpenCvText(camera, file)); }
 
 StateCamera ReadOpenCv(const std::string& file, double pitch_mm, const std::string& state, double& lost_px)
 {

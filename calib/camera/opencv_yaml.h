@@ -42,8 +42,11 @@ Eigen::Matrix3d OpenCvFromCamera(const Vec3<double>& n);
 /// has its pitch. Inverse of ToOpenCv where fx = fy. Focus and aperture become unknown.
 void FromOpenCv(const OpenCvCamera& opencv, StateCamera& camera);
 
-/// Writes `file` with a comment on what OpenCV's model cannot hold; 5 coefficients, 14 for a
-/// tilted state. Throws FileError, UsageError (suffix).
+/// What is to be written to `file`, by whose suffix it is YAML or XML, with a comment on what OpenCV's model cannot hold; 5 coefficients,
+/// 14 for a tilted state. Throws UsageError (suffix).
+std::string OpenCvText(const StateCamera& camera, const std::string& file);
+
+/// OpenCvText to `file`. Throws FileError too.
 void WriteOpenCv(const StateCamera& camera, const std::string& file);
 
 /// Reads what calibration programs of OpenCV write; 4 to 14 coefficients. `lost_px` receives how far a pixel at

@@ -61,7 +61,7 @@ struct Greys
 	const cv::Mat& For(double blur) const { return blur > half ? smooth : sharp; }
 };
 
-/// Measures all points anew where `pose` sees them, from the pixels that the file gives.
+/// Measures points where `pose` sees them: those found before anew, those of the file that were not measured yet, and those whose blur asks for the smoothed picture.
 void Look(const StateCamera& camera, const Greys& greys, double unit_mm, const std::vector<PosePoint>& points, PhotoPose& solved)
 {
 	const CameraPose pose = solved.pose;
@@ -75,7 +75,8 @@ void Look(const StateCamera& camera, const Greys& greys, double unit_mm, const s
 		const cv::Mat& grey = greys.For(BlurAt(camera, pose, unit_mm, p.world));
 		// Predicted by the camera: half of what a click may be off. A pixel that is given stays where its owner meant it.
 		const bool near = inside && (!given || std::hypot(at[0] - p.u, at[1] - p.v) <= half);
-		if (p.placed == Placed::MEASURED || (near && Measure(grey, at, half, 0.5 * half, given ? Placed::MEASURED : Placed::FOUND, p)) || given)
+		const bool is_done = p.placed == Placed::MEASURED && &grey == &greys.sharp;
+		if (is_done || (near && Measure(grey, at, half, 0.5 * half, given ? Placed::MEASURED : Placed::FOUND, p)) || given)
 			solved.points.push_back(p);
 		else
 			(inside ? solved.missing : solved.outside).push_back(p.line);
@@ -128,7 +129,8 @@ PhotoPose SolvePoseInPhoto(const StateCamera& camera, const cv::Mat& photo, std:
 		}
 	solved.pose = SolvePose(camera, solved.points, file);
 	// Every round's camera predicts more of them; four clicks and a hundred crossings took three.
-	for (size_t before = 0; solved.points.size() > before && solved.points.size() < points.size();)
+	size_t before;
+	do
 	{
 		before = solved.points.size();
 		Look(camera, greys, unit_mm, points, solved);
@@ -140,7 +142,7 @@ PhotoPose SolvePoseInPhoto(const StateCamera& camera, const cv::Mat& photo, std:
 			WeighByBlur(camera, solved.pose, unit_mm, solved.points);
 			solved.pose = SolvePose(camera, solved.points, file);
 		}
-	}
+	} while (solved.points.size() > before && solved.points.size() < points.size());
 	return solved;
 }
 

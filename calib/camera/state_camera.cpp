@@ -77,10 +77,11 @@ struct Node
 			Fail("is neither true nor false");
 		return json->get<bool>();
 	}
-	int Count() const
+	int Pixels() const { return Whole(1, MOST_PIXELS_A_SIDE, "is no number of pixels"); }
+	int Whole(long least, long most, const std::string& why) const
 	{
-		if (!json->is_number_integer() || json->get<long>() < 1 || json->get<long>() > MOST_PIXELS_A_SIDE)
-			Fail("is no number of pixels");
+		if (!json->is_number_integer() || json->get<long>() < least || json->get<long>() > most)
+			Fail(why);
 		return json->get<int>();
 	}
 };
@@ -159,7 +160,7 @@ void ReadEffects(const Node& top, StateCamera& c)
 	if (!Used(effects, EffectId::BLADES))
 		return;
 	const Node blades = top["blades"];
-	c.blades = { blades["count"].Count(), blades["rotation_deg"].Number(), blades["curvature"].Number() };
+	c.blades = { blades["count"].Whole(tilt_lens::FewestBlades, tilt_lens::MostBlades, fmt::format("is no whole number from {} to {}", tilt_lens::FewestBlades, tilt_lens::MostBlades)), blades["rotation_deg"].Number(), blades["curvature"].Number() };
 	c.aperture_diameter_mm *= blades["aperture_diameter_mm"].Positive() / top["aperture_diameter_mm"].Positive();
 }
 
@@ -191,8 +192,8 @@ StateCamera ThinCamera(const Node& top, const std::string& name)
 	c.model = fit[fit.json->contains("thin_model") ? "thin_model" : "model"].Text();
 	const Node size = top["image_size_px"];
 	size.NeedList(2);
-	c.width = size.At(0).Count();
-	c.height = size.At(1).Count();
+	c.width = size.At(0).Pixels();
+	c.height = size.At(1).Pixels();
 	c.pitch_mm = top["pixel_pitch_mm"].Positive();
 	c.image_distance_mm = fit["image_distance_mm"].Positive();
 	const Node centre = state["principal_point_px"];

@@ -32,8 +32,9 @@ StateCamera CameraOfLens(const Calibration& c, size_t s)
 	camera.sigma.principal_point = state.principal_point_sigma;
 	camera.distortion = {};
 	camera.field_curvature_per_mm = 0;
-	camera.aperture_diameter_mm = lens.aperture_diameter_mm.value * WideningForBlades(camera.blades);
-	camera.sigma.aperture_diameter_mm = lens.aperture_diameter_mm.sigma;
+	const double widening = WideningForBlades(camera.blades);
+	camera.aperture_diameter_mm = lens.aperture_diameter_mm.value * widening;
+	camera.sigma.aperture_diameter_mm = lens.aperture_diameter_mm.sigma * widening;
 	camera.lens_tilt_deg = state.lens.lens_tilt.value;
 	camera.sigma.lens_tilt_deg = state.lens.lens_tilt.sigma;
 	camera.tilt_direction_deg = state.lens.tilt_direction.value;

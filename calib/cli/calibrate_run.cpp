@@ -35,9 +35,6 @@ namespace tiltcal
 namespace
 {
 
-/// Six edges of each direction reach all quarters of the board (test_spread_order.cpp).
-const int FEWEST_EDGES = 12;
-
 const int MOST_THREADS = 1024;
 
 const char* const UNTILTED = "untilted";
@@ -192,6 +189,11 @@ Known WhatIsKnown(const CalibrateWords& o)
 	CheckBlades(known.blades);
 	for (const std::string& text : o.prior)
 		known.priors.push_back(ParsePrior(text));
+	// Two would be averaged, without a word.
+	for (size_t i = 0; i < known.priors.size(); ++i)
+		for (size_t j = 0; j < i; ++j)
+			if (known.priors[i].quantity == known.priors[j].quantity)
+				throw UsageError(fmt::format("--fix and --prior: {0} is given as {1:g} and as {2:g}; give it once", known.priors[i].Name(), known.priors[j].value, known.priors[i].value));
 	return known;
 }
 
@@ -255,8 +257,7 @@ CalibrateRun::CalibrateRun(const CalibrateWords& o, const std::string& line) : w
 		CheckPitch(*o.pitch);
 	if (o.threads < 0 || o.threads > MOST_THREADS)
 		throw UsageError(fmt::format("--threads {}: give 0 for all processors, or 1 to {}", o.threads, MOST_THREADS));
-	if (o.edges_per_photo != 0 && o.edges_per_photo < FEWEST_EDGES)
-		throw UsageError(fmt::format("--edges-per-photo {}: give 0 for all edges, or at least {}", o.edges_per_photo, FEWEST_EDGES));
+	CheckEdgesPerPhoto(o.edges_per_photo);
 	states = Patterns(o);
 	known = WhatIsKnown(o);
 	fields = FlatFields(o, states);

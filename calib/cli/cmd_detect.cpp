@@ -55,7 +55,7 @@ void Run(const Options& o)
 	const std::vector<std::string> files = ExpandGlobs(o.photos, "PHOTO");
 	PrepareFolderOf(o.csv);
 	if (!o.overlay.empty())
-		PrepareFolder(o.overlay);
+		PrepareFolder(o.overlay, "overlay");
 	FileSet set;
 	std::vector<Photo> photos;
 	std::string found;

@@ -49,14 +49,14 @@ void Check(const Options& o)
 		throw UsageError(fmt::format("--unit-mm {}: give the millimetres of a scene unit, such as 1000 for metres", o.unit_mm));
 }
 
-void ExportOpenCv(const Options& o, const StateCamera& camera)
+void ExportOpenCv(const Options& o, const StateCamera& camera, FileSet& set)
 {
-	WriteOpenCv(camera, o.opencv);
+	set.Text(o.opencv, OpenCvText(camera, o.opencv));
 	const OpenCvCamera c = ToOpenCv(camera);
 	fmt::print(ReportBeside(o.Files()), "state {}: f {:.4f} px, centre ({:.4f}, {:.4f}) px", camera.state, c.fx, c.centre[0], c.centre[1]);
 	if (camera.IsTilted())
 		fmt::print(ReportBeside(o.Files()), ", tauX {:.6f}, tauY {:.6f} (radians)", c.tau_x, c.tau_y);
-	fmt::print(ReportBeside(o.Files()), "\nlost: {}\nwritten to {}\n", LostInOpenCv(), o.opencv);
+	fmt::print(ReportBeside(o.Files()), "\n{}: lost: {}\n", o.opencv, LostInOpenCv());
 }
 
 void ExportMaps(const Options& o, const StateCamera& camera, FileSet& set)
@@ -107,7 +107,7 @@ void Run(const Options& o)
 	ExportScenes(o, camera, set);
 	// After all that may be refused.
 	if (!o.opencv.empty())
-		ExportOpenCv(o, camera);
+		ExportOpenCv(o, camera, set);
 	set.Commit();
 	if (const std::string fold = FoldWarning(camera); !fold.empty())
 		spdlog::warn("{}", fold);

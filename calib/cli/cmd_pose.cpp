@@ -66,21 +66,22 @@ void Run(const Options& o)
 		if (!file.empty())
 			PrepareFolderOf(file);
 	PhotoPose solved;
-	FileSet set;
+	cv::Mat photo;
 	if (o.photo.empty())
 		solved = { SolvePose(camera, points, o.points), points, {}, {}, {} };
 	else
 	{
-		const cv::Mat photo = ReadLinear(o.photo, ParseTransfer(o.transfer));
+		photo = ReadLinear(o.photo, ParseTransfer(o.transfer));
 		solved = SolvePoseInPhoto(camera, photo, points, o.window, o.points, o.unit_mm);
-		if (!o.overlay.empty())
-			set.Text(o.overlay, PngOf(DrawPosePoints(photo, solved)));
 	}
 	if (real)
 	{
 		spdlog::info("through the real lens, for scenes with TiltCal_Real_Lens = 1{}", o.real_lens ? "" : ", as the .inc files have it; --thin-lens for the other");
 		solved.pose = SolvePose(*real, solved.points, o.points, o.unit_mm);
 	}
+	FileSet set;
+	if (!o.overlay.empty())
+		set.Text(o.overlay, PngOf(DrawPosePoints(photo, solved)));
 	Report(o, solved, PoseInc(real ? *real : camera, solved.pose, o.unit_mm), set);
 }
 

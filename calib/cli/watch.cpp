@@ -25,7 +25,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <thread>
 #include <tuple>
 #include <utility>
@@ -62,13 +61,7 @@ struct Assembled
 class Watcher
 {
 public:
-	explicit Watcher(const CalibrateRun& what) : run(what), files(what.words.watch, what.states)
-	{
-		for (FieldPattern& field : run.fields)
-			if (!std::filesystem::path(field.pattern).is_absolute())
-				field.pattern = Join(AsPattern(run.words.watch), field.pattern);
-		fields = run.fields;
-	}
+	explicit Watcher(const CalibrateRun& what) : run(what), fields(what.fields), files(what.words.watch, what.states), field_files(what.words.watch, PatternsOf(what.fields)) {}
 
 	void UntilInterrupted()
 	{
@@ -78,7 +71,9 @@ public:
 		while (!WasInterrupted())
 		{
 			files.Look();
-			if (MeasureNew() && !files.Pending() && !WasInterrupted())
+			field_files.Look();
+			LookAtFields();
+			if (MeasureNew() && !files.Pending() && !field_files.Pending() && !WasInterrupted())
 				CalibrateAgain();
 			for (int k = 0; k < 5 && !WasInterrupted(); ++k)
 				std::this_thread::sleep_for(PAUSE);
@@ -95,19 +90,41 @@ private:
 		run.options.log.Info(notes.events.back());
 	}
 
-	/// Measures what has arrived or changed and forgets what is gone. True: the photographs are others than those calibrated last.
+	static std::vector<StatePatterns> PatternsOf(const std::vector<FieldPattern>& fields)
+	{
+		std::vector<StatePatterns> patterns;
+		for (const FieldPattern& field : fields)
+			patterns.push_back({ field.option, field.option, { field.pattern }, {} });
+		return patterns;
+	}
+
+	/// Flat fields that have come, changed or gone make the calibration another.
+	void LookAtFields()
+	{
+		std::map<std::string, FileStamp> there;
+		for (const StateFiles& field : field_files.Settled())
+			for (const std::string& file : field.files)
+			{
+				there[file] = field_files.StampOf(file);
+				if (const auto old = fields_seen.find(file); old == fields_seen.end() || !(old->second == there[file]))
+					Tell(fmt::format("{}: a flat field ({})", file, field.name));
+			}
+		for (const auto& [file, stamp] : fields_seen)
+			if (!field_files.IsThere(file))
+				Tell(file + ": is gone");
+		changed = changed || there != fields_seen;
+		fields_seen = std::move(there);
+	}
+
+	/// Measures what has arrived or changed and forgets what is gone. True: the photographs, or flat fields, are others than those calibrated last.
 	bool MeasureNew()
 	{
-		std::set<std::string> there;
 		for (const StateFiles& state : files.Settled())
 			for (const std::string& file : state.files)
-			{
-				there.insert(file);
 				if (!WasInterrupted())
 					MeasureIfNew(state.name, file);
-			}
 		for (auto at = measured.begin(); at != measured.end();)
-			if (there.count(at->first))
+			if (files.IsThere(at->first))   // what is being written again is not gone
 				++at;
 			else
 			{
@@ -181,6 +198,14 @@ private:
 		return out;
 	}
 
+	bool NonePhotographed() const
+	{
+		for (const StateFiles& state : PhotographsAlone())
+			if (!state.files.empty())
+				return false;
+		return true;
+	}
+
 	/// For EXIF.
 	std::vector<StateFiles> PhotographsAlone() const
 	{
@@ -201,8 +226,11 @@ private:
 		usable = false;
 		why_not.clear();
 		Assembled now;
+		bool is_writing = false;
 		try
 		{
+			if (NonePhotographed())
+				return WriteWaiting({});
 			now = Assemble();
 			if (now.photographs == 0)
 				return WriteWaiting(now.task);
@@ -216,6 +244,7 @@ private:
 			last_seconds = time.Seconds();
 			Remember(now.photographs, c);
 			Say(now.photographs, c);
+			is_writing = true;
 			run.Write(c, packed, notes);
 			last.emplace(c);
 			last_packed.clear();
@@ -229,7 +258,8 @@ private:
 		}
 		catch (const Error& e)
 		{
-			if (e.Code() == EXIT_FILE)
+			// What cannot be read may be whole, or gone, when it is looked at next.
+			if (is_writing && e.Code() == EXIT_FILE)
 				throw;
 			why_not = e.what();
 			Tell(fmt::format("no calibration of {} photograph{} yet: {}", now.photographs, now.photographs == 1 ? "" : "s", why_not.substr(0, why_not.find('\n'))));
@@ -249,25 +279,16 @@ private:
 			}
 	}
 
-	/// Flat fields whose files have come, by the states that are there.
+	/// Flat fields whose files have come, whole, by the states that are there.
 	std::vector<FieldPattern> FieldsThatAreThere(const Task& task) const
 	{
 		const std::vector<std::string> names = NamesOf(run.states);
 		std::vector<FieldPattern> out;
-		for (FieldPattern field : fields)
-		{
-			try
-			{
-				ExpandGlobs({ field.pattern }, field.option);
-			}
-			catch (const Error&)
-			{
-				continue;
-			}
+		for (size_t f = 0; f < fields.size(); ++f)
 			for (size_t s = 0; s < task.states.size(); ++s)
-				if (task.states[s].name == names[field.state])
-					out.push_back({ s, field.option, field.pattern });
-		}
+				if (task.states[s].name == names[fields[f].state])
+					for (const std::string& file : field_files.Settled()[f].files)
+						out.push_back({ s, fields[f].option, AsPattern(file) });
 		return out;
 	}
 
@@ -335,8 +356,9 @@ private:
 
 	CalibrateRun run;
 	std::vector<FieldPattern> fields;
-	WatchedFiles files;
+	WatchedFiles files, field_files;
 	std::map<std::string, Measured> measured;
+	std::map<std::string, FileStamp> fields_seen;
 	WatchNotes notes;
 	bool changed = false, usable = false;
 	std::string why_not;

@@ -34,9 +34,11 @@ public:
 	/// Looks again. A file counts once its size and time have stood still for a second; names of unfinished downloads never do.
 	void Look();
 
-	/// Of every state, in its order.
+	/// Of every one of the states, in their order.
 	const std::vector<StateFiles>& Settled() const { return settled; }
 	const FileStamp& StampOf(const std::string& file) const { return known.at(file).stamp; }
+	/// Settled, or still being written.
+	bool IsThere(const std::string& file) const { return known.count(file) > 0; }
 	/// Some are still being written.
 	bool Pending() const { return pending; }
 

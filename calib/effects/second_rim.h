@@ -19,8 +19,8 @@ struct TwoRims
 	SecondRim verdict;
 };
 
-/// Tries, beside the rim `one` before the lens, another behind it and another before it, and takes the one that fits better. It
-/// is kept (verdict.used) where it is significant at 2 sigma and predicts groups left out better than one rim does, brightness and
+/// Tries, beside the rim `one` before the lens, another behind it and another before it, and takes the one whose light fits better. It
+/// is kept (verdict.used) where it is significant (SIGNIFICANT_RIM) and predicts groups left out better than one rim does (WORTH_IT), brightness and
 /// places of edges together, each in its sigmas.
 TwoRims TrySecondRim(const RimFit& start, const tilt_lens::Rim& one, double focal_length);
 

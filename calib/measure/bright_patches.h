@@ -21,7 +21,7 @@ namespace tiltcal
 /// `linear`: CV_32FC1 or CV_32FC3; `photo` has its corners and edges.
 void MeasureWhite(const cv::Mat& linear, const Board& board, Photo& photo);
 
-/// A photograph of an evenly lit plain surface in cells of 1/40 of its width; no cell at the rim. Clipped cells are left
+/// A photograph of an evenly lit plain surface in whole cells of 1/40 of its width, from the top left. Clipped cells are left
 /// out. Throws Refused when those are most of them, or when the picture is dark. `file` is named.
 std::vector<BrightPatch> MeasureFlatField(const cv::Mat& linear, const std::string& file);
 

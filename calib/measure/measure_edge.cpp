@@ -106,7 +106,7 @@ std::vector<EdgeSample> Thin(const std::vector<EdgeSample>& samples, size_t most
 	return thinned;
 }
 
-/// Dark to bright across the edge, from the light a quarter square away on both sides.
+/// Dark to bright across the edge, from the light half way to the next edge on both sides.
 bool BrightOnNormalSide(const cv::Mat& grey, const Surroundings& s, const Axes& axes)
 {
 	const double quarter = 0.25 * std::min(std::abs(Distance(s.right[0], s.right[1], axes.middle)), std::abs(Distance(s.left[0], s.left[1], axes.middle)));

@@ -73,7 +73,7 @@ void CheckStateName(const std::string& name)
 		return;
 	const std::string offered = Offered(name);
 	throw UsageError(fmt::format("the state's NAME '{}' {}; {}", OneLine(name),
-		IsIdentifier(name) ? "is what the .inc files call something else by" : "is not of letters, digits and _, beginning with a letter",
+		IsIdentifier(name) ? "is what the .inc files call something else by" : "is not of letters, digits and _, the first no digit",
 		offered.empty() ? "give one such as plus5" : fmt::format("call it {}", offered)));
 }
 

@@ -14,7 +14,7 @@ namespace tiltcal
 /// `name` with _ for each - . and blank, as people write names, where that is an identifier: tilt37-az030 is tilt37_az030.
 std::string WithUnderscores(const std::string& name);
 
-/// Throws UsageError, which offers another, where `name` is not letters, digits and _ from a letter on, or is what the .inc files
+/// Throws UsageError, which offers another, where `name` is not letters, digits and _, or begins with a digit, or is what the .inc files
 /// call something else by (Rim, Distortion, ..).
 void CheckStateName(const std::string& name);
 

@@ -13,6 +13,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include <filesystem>
+#include <fstream>
 
 namespace tiltcal
 {
@@ -28,9 +29,19 @@ const size_t COLOUR_COUNT = sizeof(COLOURS) / sizeof(COLOURS[0]);
 
 std::string CsvName(const std::string& folder, size_t k) { return Join(folder, fmt::format("profile-{}.csv", k + 1)); }
 
+const std::string CSV_HEADER = "position_px,x_px,y_px,a,b";
+
+/// Whether an earlier run wrote it: what is somebody else's is not removed.
+bool IsOwnCsv(const std::string& file)
+{
+	std::ifstream in(file);
+	std::string line;
+	return std::getline(in, line) && line == CSV_HEADER;
+}
+
 std::string Csv(const LineProfile& p)
 {
-	std::string csv = "position_px,x_px,y_px,a,b\n";
+	std::string csv = CSV_HEADER + "\n";
 	for (const ProfileSample& s : p.samples)
 		csv += fmt::format("{:.3f},{:.3f},{:.3f},{:.4f},{:.4f}\n", s.position, s.x, s.y, s.a, s.b);
 	return csv;
@@ -79,15 +90,16 @@ cv::Mat WithLines(const cv::Mat& linear, const Comparison& c)
 
 void WriteComparison(const Comparison& c, const cv::Mat& a, const ComparedFiles& files, const std::string& folder, FileSet& set)
 {
+	const bool plotted = IsOwnCsv(CsvName(folder, 0));   // a plot is written with its first line's file
 	std::vector<std::string> data;
 	for (size_t k = 0; k < c.lines.size(); ++k)
 		data.push_back(set.Text(CsvName(folder, k), Csv(c.lines[k])));
 	// Those of an earlier run with more lines.
-	for (size_t k = c.lines.size(); std::filesystem::exists(CsvName(folder, k)); ++k)
+	for (size_t k = c.lines.size(); IsOwnCsv(CsvName(folder, k)); ++k)
 		set.Remove(CsvName(folder, k));
 	if (!c.lines.empty())
 		PlotProfiles(c, files, data, folder, set);
-	else
+	else if (plotted)
 		set.Remove(Join(folder, "profile.png"));
 	cv::Mat both;
 	const cv::Mat gap(a.rows, std::max(4, a.cols / 100), CV_8UC3, cv::Scalar::all(255));

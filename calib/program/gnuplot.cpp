@@ -18,6 +18,8 @@ namespace tiltcal
 namespace
 {
 
+const int NOT_FOUND = 127;   // of a child that could not be started (program/process.h)
+
 bool EndsWith(const std::string& text, const std::string& end) { return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0; }
 
 /// gnuplot does not see a full disk: the end of a PNG or SVG file is there?
@@ -34,7 +36,12 @@ bool RunGnuplot(const std::string& file, const std::string& script, int width, i
 	ProcessSetup gnuplot{{"gnuplot"}};
 	gnuplot.input = fmt::format("set encoding utf8\nset terminal {} size {},{} font 'Sans,11' noenhanced\nset output {}\n{}\n",
 		svg ? "svg background 'white'" : "pngcairo", width, height, GnuplotString(file), script);
-	return RunProcess(gnuplot).exit_code == 0 && IsWhole(file, svg);
+	const int code = RunProcess(gnuplot).exit_code;
+	if (code == NOT_FOUND)
+		throw Refused("install gnuplot-nox for plots");
+	if (code != 0)
+		throw Refused(fmt::format("gnuplot ended with exit code {}", code));
+	return IsWhole(file, svg);
 }
 
 }
@@ -64,7 +71,7 @@ bool Plot(FileSet& set, const std::string& file, const std::string& script, int 
 	}
 	catch (const Error& e)
 	{
-		spdlog::warn("{}: not plotted; install gnuplot-nox for plots", file);
+		spdlog::warn("{}: not plotted: {}", file, e.what());
 		set.Remove(file);   // that of older results
 		return false;
 	}

@@ -162,6 +162,14 @@ std::string SigmasByPhotographs(const NamedCovariance& c)
 		"here up to {:.1f} times the edges' own ({}). ", most, HtmlText(c.names[at]));
 }
 
+/// Of the sentence on the sigmas.
+std::string BoardInSigmas(const Board& board)
+{
+	const double relative = board.square_sigma_mm / board.square_mm;
+	return relative > 0 ? fmt::format("The board's size is taken to be known to {:.2g} %, which is in the sigmas of all lengths that grow with it. ", 100 * relative)
+		: std::string("The board's size is taken to be exact: an error of it scales every length that grows with it (<code>--square VALUE:SIGMA</code> puts it into the sigmas). ");
+}
+
 std::string Fine(const Calibration& c)
 {
 	std::string out = "<h2>Correlations, priors, and how to use the result</h2>\n";
@@ -171,7 +179,8 @@ std::string Fine(const Calibration& c)
 	out += "<h3>Priors</h3>\n" + PriorsTable(c);
 	out += "<h3>What the sigmas hold</h3>\n<p>They come from the covariance of the fit, rescaled by its residuals: the noise of the measured corners and edges, and as much of the model's error as scatters like noise. "
 		+ SigmasByPhotographs(c.solution.covariance) +
-		"They do not hold what is common to all photographs: an error of the square's side or of the pitch scales every length, and an aberration that the model lacks shifts its numbers without widening their sigmas. "
+		"Where another answer of this calibration (of a part of the edges, of the other lens) lies farther off, they hold that. " + BoardInSigmas(c.task.board) +
+		"They do not hold an error of the pitch, nor an aberration that none of these answers has. "
 		"The table of what leaving a photograph out changes, and the maps above, are the check.</p>\n";
 	const std::string& name = c.task.states.back().name;
 	out += fmt::format("<h3>In POV-Ray</h3>\n<p>Each state has a file <code>camera-STATE.inc</code>; the world's unit is 1 mm. With the patched POV-Ray:</p>\n<pre>#include &quot;camera-{0}.inc&quot;\n"

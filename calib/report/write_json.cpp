@@ -230,6 +230,76 @@ Json BoardJson(const Board& board)
 		{ "circle_diameter_mm", board.circle_diameter_mm } };
 }
 
+Json BladesJson(const Calibration& c)
+{
+	const FixedBlades& blades = c.task.blades;
+	return { { "count", blades.count }, { "rotation_deg", blades.rotation_deg }, { "curvature", blades.curvature },
+		{ "aperture_diameter_mm", c.solution.aperture_diameter.value * WideningForBlades(blades) } };
+}
+
+/// What each model predicts of edges that were held out; null: it does not.
+Json HeldOutJson(const ModelComparison& compared)
+{
+	Json json;
+	for (const Solution* s : compared.All())
+		json[NameOf(s->model)] = s->failure.empty() && s->held_out_px > 0 ? Json(s->held_out_px) : Json();
+	return json;
+}
+
+Json UntiltedCheckJson(const Calibration& c)
+{
+	Json json;
+	Put(json, "lens_tilt", "_deg", c.untilted_check.lens_tilt);
+	Put(json, "tilt_direction", "_deg", c.untilted_check.tilt_direction);
+	if (c.untilted_check.by_places)
+		PutTilt(json["by_places"], *c.untilted_check.by_places);
+	return json;
+}
+
+Json LeftOutJson(const Calibration& c)
+{
+	Json json = Json::array();
+	for (const LeftOut& l : c.solution.left_out)
+		json.push_back({ { "state", c.task.states[l.state].name }, { "file", c.task.states[l.state].photos[l.photo].file },
+			{ "tilt_change_deg", l.tilt_change }, { "aperture_change_mm", l.aperture_change }, { "inverse_focus_change_per_mm", l.inverse_focus_change }, { "rms_blur_px", l.rms_blur } });
+	return json;
+}
+
+Json LightJson(const Calibration& c)
+{
+	Json json;
+	json["clipped_edges_share"] = c.light.clipped_share;
+	Put(json, "sharpening", "_px2", c.light.sharpening);
+	Put(json, "overshoot", "", c.light.overshoot);
+	Put(json, "bend", "", c.light.bend);
+	Json& states = json["bend_of_states"] = Json::array();
+	for (size_t s = 0; s < c.light.bend_of_states.size(); ++s)
+	{
+		states.push_back({ { "state", c.task.states[s].name } });
+		Put(states.back(), "bend", "", c.light.bend_of_states[s]);
+	}
+	const double unknown = std::numeric_limits<double>::quiet_NaN();
+	Put(json, "exponent", "", c.light.exponent.value_or(Estimate{ unknown, unknown }));
+	return json;
+}
+
+/// What is told where the calibration was checked against itself.
+void PutChecks(const Calibration& c, Json& json)
+{
+	if (c.board_check.known)
+		json["board_check"] = BoardCheckJson(c.board_check);
+	if (c.focus_check.known)
+		json["focus_check"] = { { "rms_together_px", c.focus_check.rms_together }, { "rms_apart_px", c.focus_check.rms_apart } };
+	if (c.untilted_check.known)
+		json["untilted_check"] = UntiltedCheckJson(c);
+	json["converged"] = c.refined;
+	json["left_out"] = LeftOutJson(c);
+	if (c.solution.model != Model::PAPER)
+		json["light"] = LightJson(c);
+	if (c.IsJudged())
+		json["verdict"] = VerdictJson(c.verdict);
+}
+
 }
 
 std::string CalibrationJson(const Calibration& c)
@@ -248,18 +318,13 @@ std::string CalibrationJson(const Calibration& c)
 	json["vignetting"] = VignettingJson(c);
 	json["chromatic"] = ChromaticJson(c);
 	if (c.task.blades.count)
-		json["blades"] = { { "count", c.task.blades.count }, { "rotation_deg", c.task.blades.rotation_deg }, { "curvature", c.task.blades.curvature },
-			{ "aperture_diameter_mm", c.solution.aperture_diameter.value * WideningForBlades(c.task.blades) } };
+		json["blades"] = BladesJson(c);
 	if (c.paper.failure.empty())
 		json["comparison"]["paper"] = SolutionJson(c, c.paper, c.paper_geometry);
 	else
 		json["comparison"]["paper"] = { { "failure", c.paper.failure } };
 	if (c.compared)
-		for (const Solution* s : c.compared->All())
-		{
-			Json& entry = json["held_out_blur_px"][NameOf(s->model)];
-			entry = s->failure.empty() && s->held_out_px > 0 ? Json(s->held_out_px) : Json();
-		}
+		json["held_out_blur_px"] = HeldOutJson(*c.compared);
 	for (const Prior& prior : c.task.priors)
 		json["priors"][prior.Name()] = { { "value", prior.value }, { "sigma", prior.sigma } };
 	for (const Correlation& r : c.solution.correlations)
@@ -276,39 +341,7 @@ std::string CalibrationJson(const Calibration& c)
 	}
 	if (!c.photographs.empty())
 		json["photographs"] = PhotographsJson(c);
-	if (c.board_check.known)
-		json["board_check"] = BoardCheckJson(c.board_check);
-	if (c.focus_check.known)
-		json["focus_check"] = { { "rms_together_px", c.focus_check.rms_together }, { "rms_apart_px", c.focus_check.rms_apart } };
-	if (c.untilted_check.known)
-	{
-		Put(json["untilted_check"], "lens_tilt", "_deg", c.untilted_check.lens_tilt);
-		Put(json["untilted_check"], "tilt_direction", "_deg", c.untilted_check.tilt_direction);
-		if (c.untilted_check.by_places)
-			PutTilt(json["untilted_check"]["by_places"], *c.untilted_check.by_places);
-	}
-	json["converged"] = c.refined;
-	json["left_out"] = Json::array();
-	for (const LeftOut& l : c.solution.left_out)
-		json["left_out"].push_back({ { "state", c.task.states[l.state].name }, { "file", c.task.states[l.state].photos[l.photo].file },
-			{ "tilt_change_deg", l.tilt_change }, { "aperture_change_mm", l.aperture_change }, { "inverse_focus_change_per_mm", l.inverse_focus_change }, { "rms_blur_px", l.rms_blur } });
-	if (c.solution.model != Model::PAPER)
-	{
-		json["light"]["clipped_edges_share"] = c.light.clipped_share;
-		Put(json["light"], "sharpening", "_px2", c.light.sharpening);
-		Put(json["light"], "overshoot", "", c.light.overshoot);
-		Put(json["light"], "bend", "", c.light.bend);
-		Json& states = json["light"]["bend_of_states"] = Json::array();
-		for (size_t s = 0; s < c.light.bend_of_states.size(); ++s)
-		{
-			states.push_back({ { "state", c.task.states[s].name } });
-			Put(states.back(), "bend", "", c.light.bend_of_states[s]);
-		}
-		const double unknown = std::numeric_limits<double>::quiet_NaN();
-		Put(json["light"], "exponent", "", c.light.exponent.value_or(Estimate{ unknown, unknown }));
-	}
-	if (c.IsJudged())
-		json["verdict"] = VerdictJson(c.verdict);
+	PutChecks(c, json);
 	if (c.next.known)
 		json["next_photographs"] = NextPhotographsJson(c);
 	json["render"] = SolutionJson(c, c.render, c.RenderGeometry());

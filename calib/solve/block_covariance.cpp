@@ -21,9 +21,12 @@ ceres::Covariance::Options Options()
 
 BlockCovariance::BlockCovariance(ceres::Problem& to_judge) : problem(to_judge), covariance(Options()) {}
 
-bool BlockCovariance::Compute(const std::vector<const double*>& together, const std::vector<const double*>& alone)
+bool BlockCovariance::Compute(const std::vector<const double*>& together, const std::vector<const double*>& alone, const std::vector<std::pair<const double*, const double*>>& of_two)
 {
 	std::vector<std::pair<const double*, const double*>> pairs;
+	for (const auto& [a, b] : of_two)
+		if (Free(a) && Free(b))
+			pairs.emplace_back(a, b);
 	for (size_t i = 0; i < together.size(); ++i)
 		for (size_t j = i; j < together.size(); ++j)
 			if (Free(together[i]) && Free(together[j]))

@@ -19,8 +19,8 @@ public:
 	/// Fails on a singular problem, which is the answer wanted there.
 	explicit BlockCovariance(ceres::Problem& to_judge);
 
-	/// `together`: with each other; `alone`: each by itself. False: singular.
-	bool Compute(const std::vector<const double*>& together, const std::vector<const double*>& alone = {});
+	/// `together`: with each other; `alone`: each by itself; `pairs`: of those alone, with each other. False: singular.
+	bool Compute(const std::vector<const double*>& together, const std::vector<const double*>& alone = {}, const std::vector<std::pair<const double*, const double*>>& pairs = {});
 
 	Eigen::MatrixXd Of(const double* a, const double* b) const;
 

@@ -10,6 +10,8 @@
 
 #include <cmath>
 #include <memory>
+#include <tuple>
+#include <type_traits>
 
 namespace tiltcal
 {
@@ -31,6 +33,26 @@ struct EdgeCost
 			return false;
 		residual[0] *= weights.offset;
 		residual[1] = (residual[1] - soft_blur) * weights.blur;
+		return true;
+	}
+};
+
+/// The first of EdgeCost's residuals alone.
+struct PlaceCost
+{
+	EdgeModel edge;
+	double weight;
+
+	template<typename... Blocks>
+	bool operator()(Blocks... blocks) const
+	{
+		auto* const residual = std::get<sizeof...(Blocks) - 1>(std::tuple(blocks...));
+		std::decay_t<decltype(*residual)> seen[2];
+		auto all = std::tuple(blocks...);
+		std::get<sizeof...(Blocks) - 1>(all) = seen;
+		if (!std::apply([&](auto... with_seen) { return edge(with_seen...); }, all))
+			return false;
+		residual[0] = seen[0] * weight;
 		return true;
 	}
 };
@@ -114,6 +136,8 @@ ceres::CostFunction* NewEdgeCost(const EdgeModel& edge, double soft_blur_px, con
 {
 	return new EdgeCostFunction<EdgeCost, 2>(new EdgeCost{ edge, soft_blur_px, weights });
 }
+
+ceres::CostFunction* NewPlaceCost(const EdgeModel& edge, double weight) { return new EdgeCostFunction<PlaceCost, 1>(new PlaceCost{ edge, weight }); }
 
 ceres::CostFunction* NewPhotometricCost(const EdgeModel& edge, const Edge& measured, const EdgeWeights& weights)
 {

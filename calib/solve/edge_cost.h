@@ -84,6 +84,9 @@ struct EdgeWeights
 /// Two residuals: place and soft blur width, against the measured ones.
 ceres::CostFunction* NewEdgeCost(const EdgeModel& edge, double soft_blur_px, const EdgeWeights& weights);
 
+/// The place alone. A second residual that is always 0 would count as one that fits, and halve the variance of all.
+ceres::CostFunction* NewPlaceCost(const EdgeModel& edge, double weight);
+
 /// A residual for every bin of the edge's profile: its brightness against that of an edge where and as wide
 /// as the camera says (disc_edge.h), dark and bright side fitted to every edge anew (variable projection;
 /// the derivatives are Kaufman's, 1975). Weighted so that the edge counts for its blur as much as in NewEdgeCost.

@@ -49,14 +49,16 @@ std::vector<double*> Pointers(const EdgeBlocks<double>& b)
 
 EdgeWeights WeightsOf(const JointFit& fit, const Edge& e)
 {
-	return { 1 / std::hypot(e.offset_sigma, fit.error.offset), fit.geometry_alone ? 0 : 1 / std::hypot(e.blur_sigma, fit.error.blur) };
+	return { 1 / std::hypot(e.offset_sigma, fit.error.offset), 1 / std::hypot(e.blur_sigma, fit.error.blur) };
 }
 
 ceres::CostFunction* CostOf(const JointFit& fit, const Edge& e, const Vec3<double>& axis)
 {
 	const EdgeModel edge = MakeEdgeModel(fit.task, fit.model, e, axis, fit.geometry_alone);
 	const EdgeWeights weights = WeightsOf(fit, e);
-	if (fit.kind == Refinement::PHOTOMETRIC && !e.profile.empty() && !fit.geometry_alone)
+	if (fit.geometry_alone)
+		return NewPlaceCost(edge, weights.offset);
+	if (fit.kind == Refinement::PHOTOMETRIC && !e.profile.empty())
 		return NewPhotometricCost(edge, e, weights);
 	return NewEdgeCost(edge, SoftDiameter(e.blur), weights);
 }
@@ -218,7 +220,13 @@ std::optional<JointCovariance> JointFit::Covariance(Geometry& g, Unknowns& x) co
 	std::vector<const double*> alone;
 	for (const SigmaOf& wanted : geometry)
 		alone.push_back(wanted.block);
-	if (!covariance.Compute(lens, alone))
+	// A shared pose stands in another state from that one's lens centre, which is of the same fit.
+	std::vector<std::pair<const double*, const double*>> from_centres;
+	for (size_t s = 1; s < g.states.size() && g.shared_poses; ++s)
+		for (const Pose& pose : g.states[0].poses)
+			if (problem.HasParameterBlock(pose.data()) && problem.HasParameterBlock(&g.states[s].lens_centre.x))
+				from_centres.emplace_back(pose.data(), &g.states[s].lens_centre.x);
+	if (!covariance.Compute(lens, alone, from_centres))
 		return std::nullopt;
 
 	const double scale = VarianceOfResiduals(problem);
@@ -236,6 +244,19 @@ std::optional<JointCovariance> JointFit::Covariance(Geometry& g, Unknowns& x) co
 			wanted.sigma[i] = std::sqrt(std::max(own[i], 0.0));
 	}
 	SpreadPoses(g);
+	for (size_t s = 1; s < g.states.size() && g.shared_poses; ++s)
+		for (size_t p = 0; p < g.states[0].poses.size(); ++p)
+		{
+			const double *pose = g.states[0].poses[p].data(), *centre = &g.states[s].lens_centre.x;
+			if (!problem.HasParameterBlock(pose) || !problem.HasParameterBlock(centre))
+				continue;
+			for (int k = 0; k < 3; ++k)
+			{
+				const auto of_difference = [&](const Eigen::MatrixXd& c) { return c(3 + k, 3 + k) + c(6 + k, 6 + k) - 2 * c(3 + k, 6 + k); };
+				const double own = scale * of_difference(covariance.Of({ pose, centre }));
+				g.states[s].pose_sigmas[p][size_t(3 + k)] = std::sqrt(std::max({ own, jackknife ? of_difference(jackknife->Of({ pose, centre })) : 0, 0.0 }));
+			}
+		}
 	const auto of_planes = [&](Eigen::MatrixXd c)
 	{
 		c.row(UnknownIndex::W) *= task.pitch_mm;

@@ -60,9 +60,14 @@ std::optional<double> SolveLeastSquares(const LeastSquares& how, ceres::Problem&
 
 double VarianceOfResiduals(ceres::Problem& problem)
 {
+	std::vector<double*> blocks;
+	problem.GetParameterBlocks(&blocks);
+	int free_numbers = 0;
+	for (const double* block : blocks)
+		free_numbers += problem.IsParameterBlockConstant(block) ? 0 : problem.ParameterBlockTangentSize(block);
 	double cost = 0;
 	problem.Evaluate(ceres::Problem::EvaluateOptions(), &cost, nullptr, nullptr, nullptr);
-	return 2 * cost / std::max(problem.NumResiduals() - problem.NumParameters(), 1);
+	return 2 * cost / std::max(problem.NumResiduals() - free_numbers, 1);
 }
 
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 //
-// The one call of Ceres' solver.
+// The calibration's one call of Ceres' solver.
 
 #ifndef TILTCAL_LEAST_SQUARES_H
 #define TILTCAL_LEAST_SQUARES_H
@@ -34,7 +34,8 @@ int LimitThreads(int most);
 /// converge; then `why` holds its words.
 std::optional<double> SolveLeastSquares(const LeastSquares& how, ceres::Problem& problem, std::string* why = nullptr);
 
-/// What residuals that should have a variance of 1 have where the problem stands, as their losses count them: the scale of its covariances.
+/// What residuals that should have a variance of 1 have where the problem stands, as their losses count them: the scale of its covariances. What is held constant, or by a manifold,
+/// was not fitted and takes no degree of freedom.
 double VarianceOfResiduals(ceres::Problem& problem);
 
 }

@@ -72,7 +72,7 @@ struct UntiltedGuess
 	double inverse_focus = 0, diameter = 0, cost = 0;   ///< 1/mm, mm
 };
 
-/// First guesses for 1/U and d of b = w d |1/U - 1/z|: local minima of the mean capped
+/// First guesses for 1/U and d of b = w d |1/U - 1/z|: local minima of the mean
 /// absolute residual over 1/U, best first.
 std::vector<UntiltedGuess> ScanUntilted(const std::vector<DepthBlur>& observations, double w_px);
 

@@ -105,6 +105,7 @@ void Build(const std::vector<Feature>& features, StageOne& s, ceres::Problem& pr
 			nullptr, &s.w_px, &s.U, &s.d, s.poses[f.photo].data());
 }
 
+/// Throws Refused where the features determine no camera.
 void StageOneSigmas(const std::vector<Feature>& features, StageOne& s)
 {
 	ceres::Problem problem;
@@ -114,8 +115,8 @@ void StageOneSigmas(const std::vector<Feature>& features, StageOne& s)
 	options.min_reciprocal_condition_number = 1e-22;
 	ceres::Covariance covariance(options);
 	if (!covariance.Compute({ { &s.w_px, &s.w_px }, { &s.U, &s.U }, { &s.d, &s.d } }, &problem))
-		return;
-	const double scale = 2 * s.cost / std::max(1.0, double(problem.NumResiduals() - problem.NumParameters()));
+		throw Refused("the features do not determine the paper's stage 1: photograph the board inclined by 20 to 45 degrees");
+	const double scale = VarianceOfResiduals(problem);
 	const auto sigma = [&](const double* block)
 	{
 		double c = 0;
@@ -125,6 +126,13 @@ void StageOneSigmas(const std::vector<Feature>& features, StageOne& s)
 	s.w_sigma = sigma(&s.w_px);
 	s.U_sigma = sigma(&s.U);
 	s.d_sigma = sigma(&s.d);
+}
+
+void NeedFeatures(size_t count, int stage, const std::string& state)
+{
+	const size_t least = 5;
+	if (count < least)
+		throw Refused(fmt::format("the paper's stage {} needs at least {} features, state {} has {}", stage, least, state, count));
 }
 
 /// The starting poses moved so that the principal point is the picture's centre.
@@ -142,8 +150,7 @@ std::vector<Pose> CentredPoses(const Task& task, const Geometry& start, size_t s
 StageOne SolveStageOne(const Task& task, const Geometry& start)
 {
 	const std::vector<Feature> features = FeaturesOf(task, task.states[0]);
-	if (features.size() < 5)
-		throw Refused(fmt::format("the paper's stage 1 needs at least 5 features, {} were measured", features.size()));
+	NeedFeatures(features.size(), 1, task.states[0].name);
 	const std::vector<Pose> poses = CentredPoses(task, start, 0);
 	std::vector<DepthBlur> data;
 	for (const Feature& f : features)
@@ -253,7 +260,10 @@ void Solve(const Task& task, const Geometry& start, Geometry& found, Solution& o
 		Estimate slope{ 0, 0 };
 		const std::vector<StageTwoCost> costs = StageTwoCosts(task, task.states[s], one, found.states[s].poses);
 		if (s > 0)
+		{
+			NeedFeatures(costs.size(), 2, task.states[s].name);
 			slope = SolveStageTwo(costs, lens);
+		}
 		lens.edges = int(costs.size());
 		lens.rms_blur = std::sqrt(SumOfSquares(costs, slope.value) / double(std::max<size_t>(costs.size(), 1)));
 		FillState(one, w, w_sigma, slope, lens);

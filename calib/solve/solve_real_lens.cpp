@@ -14,6 +14,7 @@
 #include <Eigen/Dense>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace tiltcal
@@ -119,11 +120,15 @@ RealLensState StateOf(const RealLensAnswer& answer, size_t s, size_t photographs
 	return state;
 }
 
-/// Of the sum of a rim's logarithm, number `at`, and the opening's: what its radius or distance in mm has.
-double RelativeSigma(const RealLensNumbers& x, const Eigen::MatrixXd& of_numbers, int at)
+/// Of the sum of a rim's logarithm, number `at`, the opening's, and `power` times the pupil magnification's (UnitsOfRim): what its radius or distance in mm has.
+double RelativeSigma(const RealLensNumbers& x, const Eigen::MatrixXd& of_numbers, int at, int power)
 {
-	const double opening = x.lens[OPENING];
-	return std::sqrt(std::max(0., of_numbers(at, at) + 2 * of_numbers(at, OPENING) / opening + of_numbers(OPENING, OPENING) / (opening * opening)));
+	const std::array<std::pair<int, double>, 3> by{ { { at, 1 }, { OPENING, 1 / x.lens[OPENING] }, { MAGNIFICATION, power / x.lens[MAGNIFICATION] } } };
+	double variance = 0;
+	for (const auto& [i, by_i] : by)
+		for (const auto& [j, by_j] : by)
+			variance += by_i * by_j * of_numbers(i, j);
+	return std::sqrt(std::max(0., variance));
 }
 
 /// `before`: as they were told before the lens; what they were told with stays theirs where the lens leaves them.
@@ -135,8 +140,9 @@ std::vector<RimEstimate> RimsOf(const RealLensAnswer& answer, const std::vector<
 		const int at = LENS_SIZE + tilt_lens::AberrationTerms + RIM_SIZE * int(rims.size());
 		const auto sigma = [&](int number)
 		{
-			const double by_edges = RelativeSigma(answer.numbers, answer.judged.by_edges, at + number);
-			const double by_photographs = answer.judged.by_photographs ? RelativeSigma(answer.numbers, *answer.judged.by_photographs, at + number) : 0;
+			const int power = rim.distance > 0 ? 0 : number == LOG_RADIUS ? 1 : 2;
+			const double by_edges = RelativeSigma(answer.numbers, answer.judged.by_edges, at + number, power);
+			const double by_photographs = answer.judged.by_photographs ? RelativeSigma(answer.numbers, *answer.judged.by_photographs, at + number, power) : 0;
 			return std::hypot(std::max(by_edges, by_photographs), board);
 		};
 		const RimEstimate& held = before[rims.size()];

@@ -47,9 +47,29 @@ void Publish(const std::string& temporary, const std::string& file)
 		throw Failure(3, file + ": cannot be written (" + std::strerror(errno) + ")");
 }
 
+/// What is being written, for a job that is cancelled or has used up its time. Set before the handler, and not changed.
+std::string unfinished;
+
+void RemoveUnfinished(int signal)
+{
+	unlink(unfinished.c_str());
+	_exit(128 + signal);
+}
+
+/// The machine too: another's process may have this number, and write into the same folder.
+std::string TemporaryOf(const std::string& file)
+{
+	char host[256] = {};
+	gethostname(host, sizeof(host) - 1);
+	return file + "." + host + "." + std::to_string(getpid()) + ".new";
+}
+
 void Write(const std::vector<Piece>& pieces, const std::string& file)
 {
-	const std::string temporary = file + "." + std::to_string(getpid()) + ".new";
+	const std::string temporary = TemporaryOf(file);
+	unfinished = temporary;
+	for (const int signal : {SIGTERM, SIGINT, SIGHUP})
+		std::signal(signal, RemoveUnfinished);
 	try
 	{
 		if (IsPng(pieces[0].file))

@@ -135,8 +135,9 @@ double ImageDistanceFromFocalLength(const Vec3d& q, double focal_length)
 		       1.0 / qxy, focal_length, 1.0 / qxy);
 	const double inverse = InverseImageDistance(q, power);
 	if(!(inverse > 0.0))
-		Refuse("tilt_lens: the plane of focus lies %g from the lens along the axis, within focal_length %g: "
-		       "1/image_distance would be %g, which must be greater than 0.", 1.0 / q.z, focal_length, inverse);
+		Refuse("tilt_lens: the plane of focus passes %g from the lens centre, no farther than focal_length %g: "
+		       "1/image_distance would be %g, which must be greater than 0; move it away, or use a focal_length below %g.",
+		       1.0 / ScaledLength(q), focal_length, inverse, 1.0 / ScaledLength(q));
 	return inverse;
 }
 

@@ -67,7 +67,9 @@ struct RenderCounts
 		const int k = 31 - __builtin_clz(n);
 		const int index = 2 * k + ((n & (n - 1)) ? 1 : 0);
 		levels[index] += changes;
-		level_samples[index] = n;
+		// The most of them, whichever pixel is traced last.
+		if(n > level_samples[index])
+			level_samples[index] = n;
 		pixels++;
 		samples += n;
 		if(n < min_samples)

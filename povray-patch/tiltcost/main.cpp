@@ -120,13 +120,27 @@ void CompleteTable(const Pilot& pilot, Report& report)
 	report.denoise_seconds = DenoiseSecondsPerPixel() * report.pilot.machine.pixels;
 }
 
+/// A povray that does not tell it, of an older patch, is asked nothing: POV-Ray's own.
+double SceneConfidence(const PilotRun& run)
+{
+	return run.blocks[0].own ? run.blocks[0].own->confidence : DefaultConfidence;
+}
+
+/// --setting, with what the scene says where it named none.
+Setting WithConfidence(Setting setting, double scene)
+{
+	if (setting.confidence == AsTheScene)
+		setting.confidence = scene;
+	return setting;
+}
+
 /// --rows: what the first setting that was named costs, else the scene's own.
 void WriteRows(const Options& options, const PilotRun& run)
 {
 	const std::optional<tilt_lens::PilotSetting> own = run.blocks[0].own;
 	if (options.own.empty() && !own)
 		throw tiltcal::Refused("this povray does not tell what the scene says; name it with --setting MIN,MAX,VARIANCE");
-	const Setting setting = options.own.empty() ? Setting{own->min, own->max, own->variance, own->confidence, own->denoise} : options.own[0];
+	const Setting setting = options.own.empty() ? Setting{own->min, own->max, own->variance, own->confidence, own->denoise} : WithConfidence(options.own[0], SceneConfidence(run));
 	tiltcal::WriteText(options.rows, RowsText(run, Pilot(run.blocks, run.pictures), setting));
 }
 
@@ -157,6 +171,7 @@ void Run(const Options& options)
 	if (!options.rows.empty())
 		return WriteRows(options, report.pilot);
 	const Pilot pilot(report.pilot.blocks, report.pilot.pictures);
+	const double confidence = SceneConfidence(report.pilot);
 	report.pilot.blocks.clear();
 	report.blocks = pilot.Blocks();
 	report.samples = pilot.Samples();
@@ -164,7 +179,7 @@ void Run(const Options& options)
 	Progress progress;
 	progress.Begin("settings");
 	const tiltcal::Stopwatch time;
-	const std::vector<Row> all = AllRows(pilot, report.pilot.machine, [&](double share)
+	const std::vector<Row> all = AllRows(pilot, report.pilot.machine, confidence, [&](double share)
 	{
 		tiltcal::CheckInterrupt();
 		progress.Show(fmt::format("{:.0f} %{}", 100 * share, TimeLeft(share, time.Seconds())));
@@ -173,7 +188,7 @@ void Run(const Options& options)
 	report.best = BestRows(all);
 	report.rows = TableRows(report.best, 10);
 	for (const Setting& setting : options.own)
-		report.own.push_back(MakeRow(pilot, report.pilot.machine, setting));
+		report.own.push_back(MakeRow(pilot, report.pilot.machine, WithConfidence(setting, confidence)));
 	// Slow, and not printed where --time, --error or --levels asks for one setting.
 	const bool table = options.time <= 0 && options.error <= 0 && options.levels <= 0;
 	if (table || !options.csv.empty())

@@ -81,8 +81,7 @@ Setting ParseSetting(const std::string& text)
 	setting.min = int(numbers[0]);
 	setting.max = int(numbers[1]);
 	setting.variance = numbers[2];
-	if (numbers.size() == 4)
-		setting.confidence = numbers[3];
+	setting.confidence = numbers.size() == 4 ? numbers[3] : AsTheScene;
 	return setting;
 }
 
@@ -106,7 +105,7 @@ const char Footer[] =
 	"  tiltcost scenes/first-tilt/first-tilt.pov +Lscenes/first-tilt --page plane.html\n"
 	"\n"
 	"Error: RMS over pixels and channels of the linear picture, 0 to 1, against infinitely many samples. Levels: the same of\n"
-	"the sRGB-encoded picture, times 255. Times are for an otherwise idle machine; confidence is POV-Ray's default, 0.9.\n"
+	"the sRGB-encoded picture, times 255. Times are for an otherwise idle machine; confidence is the scene's (POV-Ray's default is 0.9).\n"
 	"It stops paying at the first row whose error is below 0.29 levels: rounding to 8 bits alone errs by 1/sqrt(12) = 0.29.\n"
 	"\n"
 	"Exit codes: 0 done, 1 refused (the scene does not render, has no tilt_lens, or the bound cannot be met),\n"

@@ -15,12 +15,14 @@
 namespace tiltcost
 {
 
+const double AsTheScene = 0;
+
 struct Options
 {
 	Job job;
 	double time = 0, error = 0, levels = 0;     ///< --time, --error or --levels, at most one of them; 0: not asked
 	double stop_levels = 0.29;
-	std::vector<Setting> own;
+	std::vector<Setting> own;                   ///< confidence AsTheScene where it was not named
 	std::string plot, csv, rows, page;
 };
 

@@ -41,7 +41,8 @@ double Chi2(double df, double c)
 std::string SceneText(const Setting& setting)
 {
 	const std::string samples = setting.min > 0 ? fmt::format("blur_samples {}, {}", setting.min, setting.max) : fmt::format("blur_samples {}", setting.max);
-	return samples + fmt::format("  variance {:.9g}", setting.variance) + (setting.denoise ? "  tilt_lens { denoise }" : "");
+	const std::string confidence = setting.confidence != DefaultConfidence ? fmt::format("  confidence {:.9g}", setting.confidence) : "";
+	return samples + fmt::format("  variance {:.9g}", setting.variance) + confidence + (setting.denoise ? "  tilt_lens { denoise }" : "");
 }
 
 Pilot::Pilot(const std::vector<PilotBlock>& read, const std::vector<Population>& pictures) : populations(pictures)

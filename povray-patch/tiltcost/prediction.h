@@ -25,11 +25,14 @@
 namespace tiltcost
 {
 
+/// POV-Ray's own, where a scene says none.
+const double DefaultConfidence = 0.9;
+
 /// What a scene says. variance 0: always `max`. min 0: none named.
 struct Setting
 {
 	int min = 0, max = 128;
-	double variance = 0.0001, confidence = 0.9;
+	double variance = 0.0001, confidence = DefaultConfidence;
 	bool denoise = false;           ///< as tilt_lens { denoise }
 };
 

@@ -73,7 +73,7 @@ std::string RowsText(const PilotRun& run, const Pilot& pilot, const Setting& set
 		margin++;                       // for the first samples that theirs are compared with
 	if (setting.denoise)
 	{
-		margin = tilt_lens::DenoiseReach;
+		margin += tilt_lens::DenoiseReach;
 		for (double& row : rows)
 			row += DenoiseSecondsPerPixel() * run.log.width;
 	}

@@ -31,7 +31,7 @@ Row MakeRow(const Pilot& pilot, const Machine& machine, const Setting& setting)
 namespace
 {
 
-std::vector<Setting> Grid()
+std::vector<Setting> Grid(double confidence)
 {
 	const int least_min = 1, greatest_min = 32, least_max = 16, greatest_max = 8192;
 	std::vector<Setting> grid;
@@ -40,6 +40,7 @@ std::vector<Setting> Grid()
 		Setting setting;
 		setting.max = max;
 		setting.variance = 0;
+		setting.confidence = confidence;
 		grid.push_back(setting);
 		if (max < least_max)
 			continue;
@@ -55,9 +56,9 @@ std::vector<Setting> Grid()
 
 }
 
-std::vector<Row> AllRows(const Pilot& pilot, const Machine& machine, const std::function<void(double)>& progress)
+std::vector<Row> AllRows(const Pilot& pilot, const Machine& machine, double confidence, const std::function<void(double)>& progress)
 {
-	const std::vector<Setting> grid = Grid();
+	const std::vector<Setting> grid = Grid(confidence);
 	std::vector<Row> all(grid.size());
 	std::atomic<size_t> next{0};
 	const auto work = [&](const std::function<void(double)>& say)

@@ -46,8 +46,8 @@ struct Row
 Row MakeRow(const Pilot& pilot, const Machine& machine, const Setting& setting);
 
 /// All settings that are tried, the cheapest first. MIN 1 to 32, MAX 16 to 8192, variance in half decades, and fixed
-/// numbers of samples. `progress`, where given, is called with the share that is done, by the caller's thread alone: as many work as there are processors.
-std::vector<Row> AllRows(const Pilot& pilot, const Machine& machine, const std::function<void(double)>& progress = {});
+/// numbers of samples, all with this `confidence`. `progress`, where given, is called with the share that is done, by the caller's thread alone: as many work as there are processors.
+std::vector<Row> AllRows(const Pilot& pilot, const Machine& machine, double confidence = DefaultConfidence, const std::function<void(double)>& progress = {});
 
 /// Those of them that no other one beats in both error and time, the coarsest first.
 std::vector<Row> BestRows(const std::vector<Row>& all);

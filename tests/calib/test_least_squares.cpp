@@ -7,6 +7,7 @@
 #include "support/synthetic_lens.h"
 
 #include <ceres/autodiff_cost_function.h>
+#include <ceres/manifold.h>
 #include <gtest/gtest.h>
 
 #ifdef __linux__
@@ -44,6 +45,32 @@ TEST(LeastSquares, TheLimitOfIterationsIsNoConvergence)
 	EXPECT_FALSE(solve(3, false));
 	EXPECT_TRUE(solve(3, true));
 	EXPECT_TRUE(solve(200, false));
+}
+
+/// A measured number and two that stand beside the mean, held each in its own way.
+struct Measured
+{
+	double value;
+
+	template<typename T>
+	bool operator()(const T* mean, const T* held, T* residual) const
+	{
+		residual[0] = mean[0] + mean[1] + held[0] - T(value);
+		return true;
+	}
+};
+
+TEST(LeastSquares, WhatIsHeldTakesNoDegreeOfFreedom)
+{
+	double mean[2] = { 0, 0 }, held[5] = {};
+	ceres::Problem problem;
+	for (const double value : { 1.0, 2.0, 4.0, 5.0 })
+		problem.AddResidualBlock(new ceres::AutoDiffCostFunction<Measured, 1, 2, 5>(new Measured{ value }), nullptr, mean, held);
+	problem.SetManifold(mean, new ceres::SubsetManifold(2, { 1 }));
+	problem.SetParameterBlockConstant(held);
+	ASSERT_TRUE(SolveLeastSquares({ ceres::DENSE_QR, 50, 1e-14 }, problem));
+	EXPECT_NEAR(mean[0], 3, 1e-6);   // as near as damped steps come
+	EXPECT_NEAR(VarianceOfResiduals(problem), (4 + 1 + 1 + 4) / 3., 1e-9);   // a sample's variance
 }
 
 #ifdef __linux__

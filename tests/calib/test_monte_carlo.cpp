@@ -45,6 +45,16 @@ Task Photographs(const Noise& noise)
 	return task;
 }
 
+void AsOften(const std::map<std::string, int>& inside)
+{
+	for (const auto& [name, n] : inside)
+	{
+		testing::Test::RecordProperty(name, n);
+		EXPECT_GE(n, SETS * 90 / 100) << name;
+		EXPECT_LE(n, SETS * 99 / 100) << name;
+	}
+}
+
 /// Of the plane in focus, degrees: its normal is n/f - e_z/w, as Scheimpflug and Hinge lines have it.
 double PlaneTilt(const Lens& lens)
 {
@@ -62,8 +72,9 @@ TEST(MonteCarlo, TrueValuesAreInsideTwoSigmaAsOftenAsTheyShould)
 	{
 		Geometry g = exact.geometry;
 		Solution s = exact.solution;
-		ASSERT_TRUE(RefineJointly(Photographs({ 0.04, 0.08, unsigned(i + 1) }), Refinement::EDGES, g, s));
-		const auto count = [&](const char* name, const Estimate& found, double truth) { inside[name] += std::abs(found.value - truth) < 2 * found.sigma; };
+		const Task task = Photographs({ 0.04, 0.08, unsigned(i + 1) });
+		ASSERT_TRUE(RefineJointly(task, Refinement::EDGES, g, s));
+		const auto count = [&](const std::string& name, const Estimate& found, double truth) { inside[name] += std::abs(found.value - truth) < 2 * found.sigma; };
 		const StateLens& a = s.states[1];
 		count("w", s.w_mm, lens.w);
 		count("d", s.aperture_diameter, lens.d);
@@ -75,14 +86,46 @@ TEST(MonteCarlo, TrueValuesAreInsideTwoSigmaAsOftenAsTheyShould)
 		count("plane tilt", a.focal_plane_tilt, PlaneTilt(tilted));
 		count("U tilted", a.focus_distance, tilted.FocusDistance());
 		count("principal point", { g.states[1].principal_point[0], g.states[1].principal_point_sigma[0] }, lens.cx);
+		for (const size_t axis : { 0u, 1u, 2u })   // from the tilted state's own lens centre
+			count("xyz"[axis] + std::string(" of a tilted pose"), { g.states[1].poses[1][3 + axis], g.states[1].pose_sigmas[1][3 + axis] }, PosesOfPhotographs(3)[1][3 + axis]);
 		count("pose", { g.states[0].poses[1][5], g.states[0].pose_sigmas[1][5] }, PosesOfPhotographs(3)[1][5]);
 	}
-	for (const auto& [name, n] : inside)
+	AsOften(inside);
+}
+
+// A lens that distorts shows by places alone where its axis points; every edge says one thing then, not two.
+TEST(MonteCarlo, SoAreTiltsByPlacesAlone)
+{
+	const auto distorting = [](double tilt)
 	{
-		RecordProperty(name, n);
-		EXPECT_GE(n, SETS * 90 / 100) << name;
-		EXPECT_LE(n, SETS * 99 / 100) << name;
+		Lens lens = Tilted(tilt, 30);
+		lens.k1 = -0.2;
+		return lens;
+	};
+	const auto photographs = [&](unsigned seed)
+	{
+		const double noise = seed ? 0.04 : 0;
+		return MakeTask({ Photograph("untilted", distorting(0), { noise, 2 * noise, seed + 1 }, 3), Photograph("tilted", distorting(5), { noise, 2 * noise, seed + 100001 }, 3) });
+	};
+	CalibrateOptions options{ Model::PLANE, Poses::SHARED };
+	const Calibration exact = Calibrate(photographs(0), options);
+	ASSERT_GT(exact.geometry.distortion_terms, 0);
+	std::map<std::string, int> inside;
+	for (unsigned seed = 1; seed <= SETS; ++seed)
+	{
+		const GeometryAlone by_places = TiltFromGeometryAlone(photographs(seed), exact.geometry, exact.solution);
+		ASSERT_EQ(by_places.states.size(), 2u);
+		const StateLens& tilted = by_places.states[1];
+		// As a vector: a direction's own sigma is one of a small tilt.
+		for (const bool up : { true, false })
+		{
+			const double phi = tilted.tilt_direction.value * M_PI / 180, truth = (up ? std::cos(M_PI / 6) : std::sin(M_PI / 6)) * 5;
+			const double found = tilted.lens_tilt.value * (up ? std::cos(phi) : std::sin(phi)), across = tilted.tilt_direction.sigma * M_PI / 180 * tilted.lens_tilt.value;
+			const double sigma = up ? std::hypot(std::cos(phi) * tilted.lens_tilt.sigma, std::sin(phi) * across) : std::hypot(std::sin(phi) * tilted.lens_tilt.sigma, std::cos(phi) * across);
+			inside[up ? "up" : "right"] += std::abs(found - truth) < 2 * sigma;
+		}
 	}
+	AsOften(inside);
 }
 
 }

@@ -22,7 +22,7 @@ namespace
 
 using namespace tiltcal;
 
-// m is the ratio of the stop's two images: where a rim is all that the axis's light meets, it is what is known of lenses, 0.3 (model/thin_lens_of_real.h), and the exit pupil with it.
+// m is the ratio of the stop's two images: where a rim is all that the axis's light meets, it is what is known of lenses, 0.35 (model/thin_lens_of_real.h), and the exit pupil with it.
 TEST(RealLens, AHiddenStopTellsNoPupilMagnification)
 {
 	RealLens lens;

@@ -181,6 +181,10 @@ profile_line_outside)
 	refuses 2 "leaves the picture" profile "$photos/scene/plus5.jpg" "$photos/scene/plus5.jpg" --line 0,0,1800,0 --out result
 	refuses 2 "x0,y0,x1,y1" profile "$photos/scene/plus5.jpg" "$photos/scene/plus5.jpg" --line 0,0,5 --out result ;;
 profile_bad_match) refuses 2 shading profile "$photos/scene/plus5.jpg" "$photos/scene/plus5.jpg" --match colour --out result ;;
+no_folder) # each by its own option, or none
+	refuses 3 "/proc/x.*write elsewhere" detect --board 12x9 "$target/untilted-1.jpg" --csv /proc/x/c.csv
+	refuses 3 "/proc/x.*--overlay" detect --board 12x9 "$target/untilted-1.jpg" --csv c.csv --overlay /proc/x
+	refuses 3 "/proc/x.*--out" calibrate --board 12x9 --square 25 --pitch 0.02 --untilted "$target/untilted-1.jpg" --out /proc/x ;;
 profile_missing) refuses 3 nowhere profile "$photos/scene/plus5.jpg" nowhere.png --out result ;;
 profile_files)
 	expect 0 profile "$photos/scene/untilted.jpg" "$photos/scene/plus5.jpg" --line 0,660,1799,660 --line 900,0,900,1199 --match shading --out result --json result/r.json
@@ -189,6 +193,13 @@ profile_files)
 	[ "$(wc -l <result/profile-2.csv)" = 1201 ] || fail "1200 samples expected"
 	grep -q '"mean_abs_error"' result/r.json || fail "no mean_abs_error in the JSON"
 	[ -s result/side-by-side.png ] || fail "no side-by-side.png"
+	# What fewer lines do not write again goes; what is not ours stays.
+	[ -s result/profile.png ] && echo mine >result/profile-3.csv
+	set -- profile "$photos/scene/untilted.jpg" "$photos/scene/plus5.jpg" --out result
+	expect 0 "$@" --line 0,660,1799,660; [ ! -e result/profile-2.csv ] && [ "$(cat result/profile-3.csv)" = mine ] || fail "of two lines: $(ls result)"
+	expect 0 "$@"; [ ! -e result/profile-1.csv ] && [ ! -e result/profile.png ] || fail "of one line: $(ls result)"
+	echo mine >result/profile.png
+	expect 0 "$@"; [ "$(cat result/profile.png)" = mine ] || fail "somebody else's profile.png"
 	left=$(find result -name '.*' -type f) ; [ -z "$left" ] || fail "temporary files left: $left" ;;
 one_photo)
 	# One photograph is an answer with large sigmas, which hold the truth (48 mm), and no more than "poor".
@@ -205,6 +216,7 @@ rigid_files)
 	[ -s result/overlay-plus5-3.png ] || fail "no overlay" ;;
 effects_usage)
 	for list in vignetting distortion, auto,none; do calibrate 2 "--effects.*vignetting_natural" "$target/untilted-1.jpg" --effects="$list"; done
+	calibrate 2 "focal_length is given as 45 and as 50" "$target/untilted-1.jpg" --fix focal_length=45 --prior focal_length=50:1
 	for fix in blades=2 blades=7.5 blade_curvature=2 blade_rotation=5; do calibrate 2 "blade" "$target/untilted-1.jpg" --fix $fix; done
 	for field in plus5="$target/untilted-1.jpg" "$target/untilted-1.jpg"; do calibrate 2 "--flat-field.*untilted" "$target/untilted-1.jpg" --flat-field "$field"; done
 	calibrate 3 "--flat-field untilted.*nowhere" "$target/untilted-1.jpg" --flat-field untilted=nowhere.png
@@ -296,7 +308,7 @@ lens_usage)
 	refuses 2 "needs a number" lens "$glass" --state a:tilt=steep
 	refuses 2 "a tilt of 80 degrees is beyond 60" lens "$glass" --state a:tilt=80
 	refuses 2 "NAME 'a' is already taken" lens "$glass" --state a --state a
-	refuses 2 "'5up' is not of letters.*beginning with a letter" lens "$glass" --state 5up ;;
+	refuses 2 "'5up' is not of letters.*the first no digit" lens "$glass" --state 5up ;;
 lens_unreadable)
 	refuses 3 missing.txt lens missing.txt
 	printf '10 2 1.5\n-10 x 1\n' >bad.txt; refuses 3 "bad.txt:2: 'x' is no number" lens bad.txt

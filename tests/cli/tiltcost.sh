@@ -54,7 +54,12 @@ table)
 	[ "$(head -1 table.csv | tr -cd , | wc -c)" = "$(tail -1 table.csv | tr -cd , | wc -c)" ] || fail "the CSV's rows are ragged"
 	grep -q '<svg' plot.svg || fail "there is no plot, or it is no SVG"
 	# What POV-Ray would have written for itself.
-	[ ! -e s.png ] || fail "the user's picture was written" ;;
+	[ ! -e s.png ] || fail "the user's picture was written"
+	# What the scene says holds for all rows, but for one that names its own.
+	scene s.pov "$lens blur_samples 4, 16 variance 0.001 confidence 0.99"
+	expect 0 s.pov $small --csv table.csv --setting 4,16,0.001 --setting 4,16,0.001,0.5
+	prints "= .*blur_samples 4, 16  variance 0.001  confidence 0.99$"; prints "= .*blur_samples 4, 16  variance 0.001  confidence 0.5$"
+	[ "$(grep -c ',0\.99,' table.csv)" = $(($(wc -l <table.csv) - 2)) ] || fail "not all rows but one have the scene's confidence" ;;
 questions)
 	scene s.pov "$lens"
 	expect 0 s.pov $small --error 1/100; prints "^blur_samples"; prints "RMS error 0.00"

@@ -83,6 +83,35 @@ watch_refused) # frontal or too few: a page that says so, exit code 1
 	none_left
 	"$tiltcal" calibrate $common --watch nowhere --untilted x --out result >out 2>err; [ $? = 3 ] || fail "a folder that is not there"
 	ln -s round round; "$tiltcal" calibrate $common --watch round --untilted x --out result >out 2>err; [ $? = 3 ] || fail "a folder that leads nowhere" ;;
+watch_field) # a flat field that comes last, in two halves; is gone; is no picture
+	python3 -c 'import struct, zlib
+chunk = lambda name, data: struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+rows = (b"\0" + b"\xb0\xb1" * 900) * 1200   # a step from column to column for its noise
+open("wall.png", "wb").write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 1800, 1200, 8, 0, 0, 0, 0)) + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))'
+	calibrated() { [ "$(grep -c 'calibrated from 3' err)" = $1 ] && of 3; }
+	told_by_field() { grep -q '"told_by": "flat fields"' result/calibration.json; }
+	mkdir in
+	start --watch in --untilted 'untilted-*.jpg' --flat-field untilted=wall.png --out result
+	cp "$target/untilted-1.jpg" "$target/untilted-2.jpg" "$target/untilted-3.jpg" in
+	until_true calibrated 1
+	! told_by_field || fail "a flat field that is not there"
+	half=$(($(stat -c %s wall.png) / 2))
+	head -c $half wall.png >in/wall.png
+	sleep 0.7
+	tail -c +$((half + 1)) wall.png >>in/wall.png
+	until_true calibrated 2
+	told_by_field || fail "not told by the flat field that came last"
+	rm in/wall.png
+	until_true calibrated 3
+	grep -q 'wall.png: is gone' err && ! told_by_field || fail "told by a flat field that is gone"
+	echo hello >in/wall.png
+	until_true grep -q 'no calibration of 3 photographs yet: .*wall.png' err
+	cp wall.png in
+	until_true calibrated 4
+	kill -INT $pid; wait $pid; got=$?
+	[ $got = 0 ] || fail "exit code $got, expected 0"
+	told_by_field || fail "the last one is not there at the end"
+	none_left ;;
 interrupt_calibrate)
 	start --untilted "$target/untilted-[1-3].jpg" --tilted plus5="$target/plus5-[1-3].jpg" --out result
 	# In the middle of writing: some are under temporary names.

@@ -304,6 +304,16 @@ interrupt)
 		printf "#!/bin/sh\n$moment\nkill -TERM \$PPID\nexec sleep 5\n" "$rows" > rows; chmod +x rows
 		expect 143 --join "$dir"; [ -z "$(ls | grep 'new$')" ] || fail "left: $(ls)"
 	done
+	# A part that is cancelled while its rows are written (noise, which takes zlib a second) leaves nothing beside it.
+	python3 -c 'import os, struct, zlib
+chunk = lambda name, data: struct.pack(">I", len(data)) + name + data + struct.pack(">I", zlib.crc32(name + data))
+rows = b"".join(b"\0" + os.urandom(9000) for _ in range(3000))
+open("noise.png", "wb").write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 3000, 3000, 8, 2, 0, 0, 0)) + chunk(b"IDAT", zlib.compress(rows, 1)) + chunk(b"IEND", b""))'
+	"$rows" cut 1 3000 noise.png part.png & pid=$!
+	until ls part.png.*.new > /dev/null 2>&1; do kill -0 $pid 2> /dev/null || fail "cut at once"; sleep 0.02; done
+	kill -TERM $pid; wait $pid; got=$?
+	[ $got = 143 ] || fail "exit code $got of a part that was ended, expected 143"
+	[ -z "$(ls | grep '^part')" ] || fail "left: $(ls)"
 	printf '#!/bin/sh\nexec %s "$@"\n' "$rows" > rows
 	expect 0 --join "$dir"; [ -z "$(find . -name '*.new')" ] || fail "left: $(find . -name '*.new')" ;;
 balance)

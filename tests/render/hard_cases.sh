@@ -40,7 +40,9 @@ refusals)
 	# The hinge is U / tan A away: 8 / tan 60 = 4.6188.
 	refused hinge "focal_plane_tilt 60 focal_distance 8 focal_length 45" "$at_origin" "hinge lies 4.6188 from the lens, nearer than focal_length 45" "below 4.6188"
 	# 1/w = 1/f - 1/U = 1/2 - 1 = -0.5; for a tilted lens cos(10)/2 - 1 = -0.507596.
-	refused behind_lens "focal_distance 1 focal_length 2" "$at_origin" "lies 1 from the lens along the axis, within focal_length 2" "would be -0.5, which must be greater than 0"
+	refused behind_lens "focal_distance 1 focal_length 2" "$at_origin" "passes 1 from the lens centre, no farther than focal_length 2" "would be -0.5, which must be greater than 0" "below 1."
+	# 100 along the axis, but 100 cos 65.3 = 41.787 from the plane; the hinge is 46 away.
+	refused behind_tilted "focal_plane_tilt 65.3 focal_distance 100 focal_length 45" "$at_origin" "passes 41.7867 from the lens centre, no farther than focal_length 45"
 	refused at_focus "focal_distance 2 focal_length 2" "$at_origin" "which must be greater than 0"
 	refused tilted_behind "lens_tilt 10 focal_distance 1 focal_length 2" "$at_origin" "would be -0.507596, which must be greater than 0"
 	refused right_angle "focal_plane_tilt 90" "$at_origin" "must lie between -90 and 90 degrees, but is 90"

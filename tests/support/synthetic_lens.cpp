@@ -84,6 +84,13 @@ double Width(const Lens& lens, const Vec& P, double nx, double ny)
 	return double(most - least) / PITCH;
 }
 
+/// The direction in which the picture shows P: its slope from the lens axis is (1 + k1 slope^2) as large.
+Vec Distorted(const Lens& lens, const Vec& P)
+{
+	const Vec n = Normal(lens), slope = P / P.dot(n) - n;
+	return n + slope * (1 + Real(lens.k1) * slope.squaredNorm());
+}
+
 struct Placed
 {
 	Eigen::Matrix<Real, 3, 3> R;
@@ -121,8 +128,9 @@ tiltcal::Photo Shoot(const Lens& lens, const Placed& pose, const Noise& noise, s
 		const Real height = shape.bend * (1 - along * along) + shape.bend_along_rows * (1 - down * down) + shape.twist * along * down;
 		return Vec(pose.R * Vec(board.X(column) * (1 + shape.widening), board.Y(row), height) + pose.t);
 	};
-	const auto pixel = [&](const Vec& P)
+	const auto pixel = [&](const Vec& object)
 	{
+		const Vec P = Distorted(lens, object);
 		return Eigen::Vector2d(lens.cx + double(lens.w * P.x() / P.z()) / PITCH, lens.cy - double(lens.w * P.y() / P.z()) / PITCH);
 	};
 	for (int j = 0; j < board.InnerRows(); ++j)

@@ -19,6 +19,7 @@ struct Lens
 	double tilt = 0, direction = 0;        // degrees; as reported by tiltcal
 	double cx = 899.5, cy = 599.5;         // principal point, px
 	double floor = 0;                      // the lens's own blur, px
+	double k1 = 0;                         // of places, about the lens axis; blur is not distorted
 	double curvature = 0;                  // C of the field about the lens axis, 1/mm (povray-patch/lens/MODEL.md, Field curvature)
 
 	/// Distance along the axis at which this lens is in focus on the sensor, mm.

@@ -143,6 +143,7 @@ TEST(Prediction, AdaptiveSamplesAndTheirTime)
 	// Three times the variance: 1e-4 * 3 * 64 * chi2(63, 0.9) / 63 = 0.0148 is enough, half of it is not.
 	EXPECT_DOUBLE_EQ(pilot.Predict({16, 1024, 3e-4, 0.9}).samples_per_pixel, (16 + 64) / 2.0);
 	EXPECT_EQ(SceneText({16, 1024, 2e-4, 0.9}), "blur_samples 16, 1024  variance 0.0002");
+	EXPECT_EQ(SceneText({16, 1024, 2e-4, 0.99}), "blur_samples 16, 1024  variance 0.0002  confidence 0.99");
 	EXPECT_EQ(SceneText(Fixed(37)), "blur_samples 37  variance 0");
 }
 
@@ -151,10 +152,9 @@ TEST(Prediction, NeighboursVote)
 	// One uncertain pixel in the middle of a calm block draws its neighbours along.
 	const Pilot pilot(ParsePilot(BlockText(0, 1, 64, [](int pixel, int) { return Grey(0.5, pixel == 3 * Side + 3 ? 0.02 : 0); })));
 	const double mean = pilot.Predict({4, 64, 1e-4, 0.9}).samples_per_pixel;
-	// It alone at 64 and all others inside at 4 would be less.
-	const double inside = (Side - 4) * (Side - 4);
-	EXPECT_GT(mean, (64 + 4 * (inside - 1)) / inside + 0.25);
-	EXPECT_LT(mean, 64);
+	// Of the pixels whose neighbours are all in the block, its own takes 64, the eight beside it a half, the seven farther off within reach an eighth, all others 4.
+	const int inside = (Side - 4) * (Side - 4), far = 4 * 4 - 9;
+	EXPECT_DOUBLE_EQ(mean, (64 + 8 * 32 + far * 8 + (inside - 9 - far) * 4.0) / inside);
 }
 
 TEST(Prediction, JackknifeLeavesOutEveryTenth)
@@ -165,11 +165,11 @@ TEST(Prediction, JackknifeLeavesOutEveryTenth)
 	const Pilot pilot(ParsePilot(text));
 	EXPECT_NEAR(pilot.Predict(Fixed(16), 3, 10).seconds_per_pixel, 16e-6, 1e-12);
 	EXPECT_NEAR(pilot.Predict(Fixed(16)).seconds_per_pixel, 16e-6 * 1.9, 1e-12);
-	// Two outlying blocks of twenty: the spread is neither nothing nor everything.
+	// Both outlying blocks fall into one of the ten parts: without it 16 us, without any other 16 (16 + 20) / 18 = 32 us, 30.4 in the mean.
+	// The jackknife's variance is 9/10 of the sum of squares about that mean, 14.4^2 + 9 1.6^2 = 230.4.
 	const Machine machine{1e6, 0, 0, 1};
 	const Spread spread = SpreadOf(pilot, machine, Fixed(16));
-	EXPECT_GT(spread.seconds, 0.2);
-	EXPECT_LT(spread.seconds, 0.8);
+	EXPECT_NEAR(spread.seconds, std::sqrt(0.9 * 230.4) / 30.4, 1e-6);
 	const Pilot one(ParsePilot(Flat(0, 1, 16, 0.5, 0)));
 	EXPECT_EQ(SpreadOf(one, machine, Fixed(16)).error, 0);
 }

@@ -70,7 +70,7 @@ struct EffectChoice
 {
 	enum Kind
 	{
-		AUTO,    ///< significant at 2 sigma, and photographs left out are predicted better
+		AUTO,    ///< significant at 2 sigma, rims at 4, and photographs left out are predicted better
 		ALL,     ///< all that can be estimated
 		LIST     ///< exactly `listed`, which may be none
 	} kind = AUTO;

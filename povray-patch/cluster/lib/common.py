@@ -52,8 +52,8 @@ def usage(text):
 
 def file_error(path, error):
 	"""A message for an OSError, with what to do where that is known."""
-	hint = {"ENOSPC": "; the disk is full: make room, then go on with --resume", "EROFS": "; it is mounted read-only",
-		"EDQUOT": "; your quota is used up: make room, then go on with --resume"}
+	hint = {"ENOSPC": "; the disk is full: make room, then start again", "EROFS": "; it is mounted read-only",
+		"EDQUOT": "; your quota is used up: make room, then start again"}
 	name = __import__("errno").errorcode.get(error.errno, "")
 	return Failure(FILE, f"{path}: {error.strerror or error}{hint.get(name, '')}")
 

@@ -68,12 +68,12 @@ std::string Processor()
 	return "an unknown processor";
 }
 
-// Whether the truths are those of stock's pinholes, where they were asked (each error is known to a factor of 1.58, as LIMITS.md says), and stock is the slower one.
+// Whether the truths are those of stock's pinholes, where they were asked and stock is the slower one.
 bool StandsUp(const RaceReport& report)
 {
 	bool good = true;
 	for (const Contest& contest : report.contests)
-		if (contest.pinhole_frames > 0 && contest.pinhole_distance > 1.58 * std::hypot(contest.truth_error, contest.pinhole_error))
+		if (contest.pinhole_frames > 0 && contest.pinhole_distance > contest.PinholeBound())
 		{
 			std::fprintf(stderr, "race: %s: the truth is %.5f from stock's pinholes, with errors of %.5f and %.5f\n", contest.Name().c_str(), contest.pinhole_distance,
 				contest.truth_error, contest.pinhole_error);

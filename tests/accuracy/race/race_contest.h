@@ -7,6 +7,7 @@
 #include "race_render.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <string>
 
@@ -19,6 +20,8 @@ struct Contest
 	int truth_samples = 0;
 	double pinhole_distance = 0, pinhole_error = 0; // truth to averaged pinholes of stock; what their halves differ by, / 2
 	int pinhole_frames = 0;
+	// How far apart the two may be: each error is known to a factor of 1.58 (LIMITS.md).
+	double PinholeBound() const { return 1.58 * std::hypot(truth_error, pinhole_error); }
 	double pinholes_paid = 1; // CPU time of the pinholes with parsing and start-up, over that without
 	Offset stock_offset; // of stock's own limit
 	double limit_distance = 0, limit_error = 0; // stock's limit to the truth; its own error

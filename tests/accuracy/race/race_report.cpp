@@ -235,7 +235,7 @@ std::string Section(const Contest& contest, const RaceReport& report, const fs::
 	text += fmt::format("<p><small>Truth: {} samples, own RMS error {:.5f}{}",
 		contest.truth_samples, contest.truth_error, contest.truth_error <= report.settings.reference_error ? "" : " (more than was asked for)");
 	text += contest.pinhole_frames == 0 ? "." : fmt::format("; {:.5f} from {} averaged pinholes of stock, which should be within {:.5f}.",
-		contest.pinhole_distance, contest.pinhole_frames, contest.pinhole_error);
+		contest.pinhole_distance, contest.pinhole_frames, contest.PinholeBound());
 	if (!contest.tilted)
 		text += fmt::format(" Stock's own limit (own error {:.5f}) is {:.5f} from the truth, moved by ({:.3f}, {:.3f}) px.",
 			contest.limit_error, contest.limit_distance, contest.stock_offset.dx, contest.stock_offset.dy);

@@ -21,7 +21,7 @@ struct RaceReport
 void WriteTables(const RaceReport& report, const std::filesystem::path& out);
 
 // report.html, self-contained; `work` receives what is made on the way. Fragments that lie in `out` are taken in:
-// calibrator-cost.html, tiltcost.html, cost-of-nothing.html, gallery-seconds.html.
+// calibrator-cost.html, calibrator-ablation.html, tiltcost.html, cost-of-nothing.html, gallery-seconds.html.
 void WritePage(const RaceReport& report, const std::filesystem::path& out, const std::filesystem::path& work);
 
 // The SVG of a contest's curves: RMS error, or the root of relMSE.
