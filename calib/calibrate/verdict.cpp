@@ -46,6 +46,7 @@ public:
 		// Light first: it may be why photographs and an untilted lens look as if they were not what they are.
 		AddRemarks(JudgeLight(c.light));
 		AddRemarks(JudgeLightOfStates(c));
+		AddRemarks(JudgeWidths(c));
 		const bool spoiled = verdict.grade == Grade::POOR;
 		bool odd = !c.refined;
 		for (const std::vector<Remark>& remarks : { JudgePhotographs(c), JudgeBoard(c), JudgeUntilted(c) })

@@ -18,6 +18,9 @@ std::vector<Remark> JudgePhotographs(const Calibration& calibration);
 /// How the corners fit beside their noise, and whether another board would fit better.
 std::vector<Remark> JudgeBoard(const Calibration& calibration);
 
+/// Blur so wide that an edge's discs reach into the next one's.
+std::vector<Remark> JudgeWidths(const Calibration& calibration);
+
 /// A tilt that blur sees in the untilted state.
 std::vector<Remark> JudgeUntilted(const Calibration& calibration);
 

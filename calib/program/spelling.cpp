@@ -10,7 +10,7 @@ namespace tiltcal
 namespace
 {
 
-const char* const INPUTS[] = { "any_orientation", "board", "circle_diameter", "edges_per_photo", "effects", "fix", "flat_field", "model", "opencv", "out", "photo",
+const char* const INPUTS[] = { "any_orientation", "board", "circle_diameter", "edges_per_photo", "effects", "fix", "flat_field", "model", "opencv", "out", "overlay", "photo",
 	"pitch", "poses", "prior", "square", "state", "target", "transfer",
 	"untilted_free", "watch" };
 

@@ -73,8 +73,12 @@ TEST(CalibrateBlurred, TiltOfALensFromStronglyBlurredPictures)
 	std::printf("tilt %.3f +- %.3f towards %.2f, w %.3f +- %.3f, d %.3f +- %.3f\n", tilt, lens.lens_tilt.sigma, lens.tilt_direction.value, c.solution.w_mm.value, c.solution.w_mm.sigma,
 		c.solution.aperture_diameter.value, c.solution.aperture_diameter.sigma);
 	EXPECT_LT(std::hypot(tilt * std::sin(phi), tilt * std::cos(phi) - 5), 0.1);   // eight pictures of 0.3 megapixels
-	// Four sigma, and of d what the spiral's outermost of N lens points stands within the rim.
-	EXPECT_LT(std::abs(tilt - 5), 4 * lens.lens_tilt.sigma);
+	// Discs that reach into the next edge's take up to 0.3 % off the tilt, which its sigma need not hold: that is said.
+	EXPECT_NEAR(tilt, 5, 0.005 * 5);
+	EXPECT_GT(c.verdict.grade, Grade::GOOD);
+	EXPECT_TRUE(std::any_of(c.verdict.remarks.begin(), c.verdict.remarks.end(), [](const Remark& r) { return r.text.find("of a square. Beyond a quarter") != std::string::npos; }));
+	// Of the others four sigma, and of
+	// d what the spiral's outermost of N lens points stands within the rim.
 	EXPECT_LT(std::abs(c.solution.aperture_diameter.value - D), D / (4 * LENS_POINTS) + 4 * c.solution.aperture_diameter.sigma);
 	EXPECT_LT(std::abs(c.solution.w_mm.value - W), 4 * c.solution.w_mm.sigma);
 	// And these say something.
