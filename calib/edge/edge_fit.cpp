@@ -88,7 +88,7 @@ double ResidualScale(const Vector& p, const Observed& of)
 	return std::max(RobustSigma(std::move(r)), 0.02 * std::abs(p[HIGH] - p[LOW]) + 1e-12);
 }
 
-/// One Levenberg-Marquardt descent at a fixed robust scale. False: singular.
+/// One Levenberg-Marquardt descent at a fixed robust scale. False: singular, or not at its end after so many iterations.
 bool Descend(Vector& p, const Observed& of, double scale, int iterations)
 {
 	double lambda = 1e-3;
@@ -117,7 +117,7 @@ bool Descend(Vector& p, const Observed& of, double scale, int iterations)
 		else if ((lambda *= 5) > 1e8)
 			return true;
 	}
-	return true;
+	return false;
 }
 
 /// Plateaus from the outer quarters on both sides.

@@ -62,7 +62,7 @@ private:
 /// Huber weights; sigmas from the covariance rescaled by the residuals. A radius below
 /// about 0.3 px is not told from 0, and its square may come out negative.
 /// The shading is not fitted: a blur with a tail to one side (coma) looks like one, but only where the tail is bright.
-/// `start_radius` in pixels. Not valid: fewer than 40 samples, no contrast, singular.
+/// `start_radius` in pixels. Not valid: fewer than 40 samples, no contrast, no convergence.
 EdgeFit FitEdge(const std::vector<EdgeSample>& samples, const EdgeProfile& profile, const EdgeShading& shading, double start_radius);
 
 /// A change of a fit; of the soft radius.
