@@ -171,17 +171,10 @@ void WidenByUnknownPupils(Calibration& c)
 		WidenByPupils(*told);
 }
 
-Calibration Solve(const Task& measured, const CalibrateOptions& o)
+/// What the places of corners say, and what they do not.
+void LogGeometry(const Calibration& c, const Log& log)
 {
-	const Log& log = o.log;
-	Calibration c;
-	c.task = measured;
 	const Task& task = c.task;
-	const std::optional<Model> model = ModelFor(o, task.board);
-	if (model != Model::PAPER)
-		SolveThinLens(measured, model, o, c);
-	else
-		c.geometry = c.pinhole = SolveGeometry(task, { 0, {}, PosesAreShared(task, {}, o) });
 	WarnOfOddPhotos(task, c.geometry, log);
 	for (size_t k = 0; k < task.states.size(); ++k)
 		if (c.geometry.states[k].principal_point_fixed)
@@ -198,19 +191,38 @@ Calibration Solve(const Task& measured, const CalibrateOptions& o)
 		c.geometry.distortion_terms, c.geometry.w_px * task.pitch_mm, c.pinhole.rms, c.pinhole.w_px * task.pitch_mm));
 	if (worst > PINHOLE_RMS)
 		log.Warn(fmt::format("a render without this lens's distortion misses the corners of the worst photograph by {:.2f} px RMS", worst));
+}
 
+/// The published method, for comparison, unless it is what was asked for.
+void SolveByPaper(Calibration& c, bool is_wanted, const Log& log)
+{
 	log.Info("solving the lens (paper)");
 	const Stopwatch time;
-	c.paper = SolvePaper(task, c.pinhole, c.paper_geometry);
+	c.paper = SolvePaper(c.task, c.pinhole, c.paper_geometry);
 	c.paper.seconds = time.Seconds();
 	if (!c.paper.failure.empty())
 	{
-		if (model == Model::PAPER)
+		if (is_wanted)
 			throw Refused(c.paper.failure);
 		log.Warn(fmt::format("the paper's model, for comparison, gave no answer: {}", c.paper.failure));
 	}
-	if (model == Model::PAPER)
+	if (is_wanted)
 		c.solution = c.render = c.paper;
+}
+
+Calibration Solve(const Task& measured, const CalibrateOptions& o)
+{
+	const Log& log = o.log;
+	Calibration c;
+	c.task = measured;
+	const Task& task = c.task;
+	const std::optional<Model> model = ModelFor(o, task.board);
+	if (model != Model::PAPER)
+		SolveThinLens(measured, model, o, c);
+	else
+		c.geometry = c.pinhole = SolveGeometry(task, { 0, {}, PosesAreShared(task, {}, o) });
+	LogGeometry(c, log);
+	SolveByPaper(c, model == Model::PAPER, log);
 	c.vignetting = EstimateVignetting(c);
 	c.chromatic = EstimateChromatic(c);
 	LogEffects(c, log);

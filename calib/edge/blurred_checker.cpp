@@ -5,6 +5,7 @@
 #include "lens/angles.h"
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace tiltcal
 {
@@ -60,68 +61,75 @@ BlurredChecker::BlurredChecker(std::vector<CheckerLine> across_lines, size_t lin
 			angles.push_back(std::acos(std::clamp(a.nx * b.nx + a.ns * b.ns, -1.0, 1.0)));
 }
 
+namespace
+{
+
+/// A line that the blur reaches: which, where in radii of the blur from the sample, that by the radius, and the sign of its step.
+struct Seen
+{
+	size_t index;
+	double t, dt, sign;
+};
+
+/// The square wave across lines of one direction: base + sum of sign * (2 half-plane) over those that the blur reaches.
+struct Wave
+{
+	double base;
+	Seen seen[8];
+	size_t count = 0;
+
+	/// +1 just beyond the line `reference`. `distance` of each from the sample; R: half width of the blur with the pixel's, dR by the radius.
+	template<typename Distance>
+	Wave(const std::vector<CheckerLine>& lines, size_t reference, double R, double dR, const Distance& distance)
+	{
+		const auto sign_of = [&](size_t k) { return (k + reference) % 2 == 0 ? 1.0 : -1.0; };
+		base = -sign_of(0);
+		for (size_t k = 0; k < lines.size() && count < std::size(seen); ++k)
+		{
+			const double own = std::max(R + lines[k].grow, 0.5), t = -distance(k) / own;
+			if (t <= -1)
+				base += 2 * sign_of(k);
+			else if (t < 1)
+				seen[count++] = { k, t, -t / own * dR, sign_of(k) };
+		}
+	}
+};
+
+}
+
 EdgeResponse BlurredChecker::At(const EdgeSample& sample, double offset, double slope, double radius) const
 {
 	// Variances add: the pixel's is 1/12 in each direction, the disc's R^2/4.
 	const double R = std::sqrt(radius * radius + 1.0 / 3);
 	const double dR = radius / R;
-	const auto place = [&](const CheckerLine& l, double distance, double& t, double& dt)
-	{
-		const double own = std::max(R + l.grow, 0.5);
-		t = -distance / own;
-		dt = -t / own * dR;   // by `radius`
-	};
-	struct Seen { size_t index; double t, dt, sign; };
-	Seen u[8], v[8];
-	size_t nu = 0, nv = 0;
-	// Each square wave is base + sum of sign * (2 half-plane); +1 just beyond the edge, +1 between start and end.
-	const auto sign_of = [](size_t k, size_t reference) { return (k + reference) % 2 == 0 ? 1.0 : -1.0; };
-	double base_u = -sign_of(0, before), base_v = -sign_of(0, start + 1);
-	for (size_t k = 0; k < across.size() && nu < 8; ++k)
-	{
-		const CheckerLine& l = across[k];
-		const double distance = k == before ? sample.x - offset - slope * sample.s : l.nx * sample.x + l.ns * sample.s - l.at;
-		double t, dt;
-		place(l, distance, t, dt);
-		if (t <= -1)
-			base_u += 2 * sign_of(k, before);
-		else if (t < 1)
-			u[nu++] = { k, t, dt, sign_of(k, before) };
-	}
-	for (size_t k = 0; k < along.size() && nv < 8; ++k)
-	{
-		const CheckerLine& l = along[k];
-		double t, dt;
-		place(l, l.nx * sample.x + l.ns * sample.s - l.at, t, dt);
-		if (t <= -1)
-			base_v += 2 * sign_of(k, start + 1);
-		else if (t < 1)
-			v[nv++] = { k, t, dt, sign_of(k, start + 1) };
-	}
+	const auto beside = [&](const CheckerLine& l) { return l.nx * sample.x + l.ns * sample.s - l.at; };
+	const Wave u(across, before, R, dR, [&](size_t k) { return k == before ? sample.x - offset - slope * sample.s : beside(across[k]); });
+	// +1 between start and end.
+	const Wave v(along, start + 1, R, dR, [&](size_t k) { return beside(along[k]); });
 
-	double mean = base_u * base_v, d_radius = 0, d_own = 0;
-	for (size_t i = 0; i < nu; ++i)
+	double mean = u.base * v.base, d_radius = 0, d_own = 0;
+	for (size_t i = 0; i < u.count; ++i)
 	{
-		const double weight = 2 * u[i].sign * base_v, slope_t = -weight * HalfSlope(u[i].t);
-		mean += weight * HalfShare(u[i].t);
-		d_radius += slope_t * u[i].dt;
-		if (u[i].index == before)
+		const double weight = 2 * u.seen[i].sign * v.base, slope_t = -weight * HalfSlope(u.seen[i].t);
+		mean += weight * HalfShare(u.seen[i].t);
+		d_radius += slope_t * u.seen[i].dt;
+		if (u.seen[i].index == before)
 			d_own += slope_t;
 	}
-	for (size_t j = 0; j < nv; ++j)
+	for (size_t j = 0; j < v.count; ++j)
 	{
-		const double weight = 2 * v[j].sign * base_u;
-		mean += weight * HalfShare(v[j].t);
-		d_radius -= weight * HalfSlope(v[j].t) * v[j].dt;
+		const double weight = 2 * v.seen[j].sign * u.base;
+		mean += weight * HalfShare(v.seen[j].t);
+		d_radius -= weight * HalfSlope(v.seen[j].t) * v.seen[j].dt;
 	}
-	for (size_t i = 0; i < nu; ++i)
-		for (size_t j = 0; j < nv; ++j)
+	for (size_t i = 0; i < u.count; ++i)
+		for (size_t j = 0; j < v.count; ++j)
 		{
-			const Wedge w = WedgeShare(u[i].t, v[j].t, angles[u[i].index * along.size() + v[j].index]);
-			const double weight = 4 * u[i].sign * v[j].sign;
+			const Wedge w = WedgeShare(u.seen[i].t, v.seen[j].t, angles[u.seen[i].index * along.size() + v.seen[j].index]);
+			const double weight = 4 * u.seen[i].sign * v.seen[j].sign;
 			mean += weight * w.share;
-			d_radius += weight * (w.d_t1 * u[i].dt + w.d_t2 * v[j].dt);
-			if (u[i].index == before)
+			d_radius += weight * (w.d_t1 * u.seen[i].dt + w.d_t2 * v.seen[j].dt);
+			if (u.seen[i].index == before)
 				d_own += weight * w.d_t1;
 		}
 	// t = -(x - ..)/R, so d/dx is -1/R of d/dt.
