@@ -159,6 +159,38 @@ std::vector<SigmaOf> GeometryBlocks(Geometry& g)
 	return blocks;
 }
 
+using Pairs = std::vector<std::pair<const double*, const double*>>;
+
+/// A shared pose stands in another state from that one's lens centre, which is of the same fit.
+Pairs PosesAndCentres(const ceres::Problem& problem, const Geometry& g)
+{
+	Pairs pairs;
+	for (size_t s = 1; s < g.states.size() && g.shared_poses; ++s)
+		for (const Pose& pose : g.states[0].poses)
+			if (problem.HasParameterBlock(pose.data()) && problem.HasParameterBlock(&g.states[s].lens_centre.x))
+				pairs.emplace_back(pose.data(), &g.states[s].lens_centre.x);
+	return pairs;
+}
+
+/// Of the places of these: of a difference. `by_edges`: the covariance of blocks.
+template<typename ByEdges>
+void SigmasFromCentres(const ceres::Problem& problem, const ByEdges& by_edges, const std::optional<CovarianceByPhotographs>& jackknife, Geometry& g)
+{
+	for (size_t s = 1; s < g.states.size() && g.shared_poses; ++s)
+		for (size_t p = 0; p < g.states[0].poses.size(); ++p)
+		{
+			const std::vector<const double*> both{ g.states[0].poses[p].data(), &g.states[s].lens_centre.x };
+			if (!problem.HasParameterBlock(both[0]) || !problem.HasParameterBlock(both[1]))
+				continue;
+			const Eigen::MatrixXd own = by_edges(both), left_out = jackknife ? jackknife->Of(both) : Eigen::MatrixXd::Zero(9, 9);
+			for (int k = 0; k < 3; ++k)
+			{
+				const auto variance = [k](const Eigen::MatrixXd& c) { return c(3 + k, 3 + k) + c(6 + k, 6 + k) - 2 * c(3 + k, 6 + k); };
+				g.states[s].pose_sigmas[p][size_t(3 + k)] = std::sqrt(std::max({ variance(own), variance(left_out), 0.0 }));
+			}
+		}
+}
+
 }
 
 ModelError ErrorOf(const std::vector<std::array<double, 2>>& residuals)
@@ -220,13 +252,7 @@ std::optional<JointCovariance> JointFit::Covariance(Geometry& g, Unknowns& x) co
 	std::vector<const double*> alone;
 	for (const SigmaOf& wanted : geometry)
 		alone.push_back(wanted.block);
-	// A shared pose stands in another state from that one's lens centre, which is of the same fit.
-	std::vector<std::pair<const double*, const double*>> from_centres;
-	for (size_t s = 1; s < g.states.size() && g.shared_poses; ++s)
-		for (const Pose& pose : g.states[0].poses)
-			if (problem.HasParameterBlock(pose.data()) && problem.HasParameterBlock(&g.states[s].lens_centre.x))
-				from_centres.emplace_back(pose.data(), &g.states[s].lens_centre.x);
-	if (!covariance.Compute(lens, alone, from_centres))
+	if (!covariance.Compute(lens, alone, PosesAndCentres(problem, g)))
 		return std::nullopt;
 
 	const double scale = VarianceOfResiduals(problem);
@@ -244,19 +270,7 @@ std::optional<JointCovariance> JointFit::Covariance(Geometry& g, Unknowns& x) co
 			wanted.sigma[i] = std::sqrt(std::max(own[i], 0.0));
 	}
 	SpreadPoses(g);
-	for (size_t s = 1; s < g.states.size() && g.shared_poses; ++s)
-		for (size_t p = 0; p < g.states[0].poses.size(); ++p)
-		{
-			const double *pose = g.states[0].poses[p].data(), *centre = &g.states[s].lens_centre.x;
-			if (!problem.HasParameterBlock(pose) || !problem.HasParameterBlock(centre))
-				continue;
-			for (int k = 0; k < 3; ++k)
-			{
-				const auto of_difference = [&](const Eigen::MatrixXd& c) { return c(3 + k, 3 + k) + c(6 + k, 6 + k) - 2 * c(3 + k, 6 + k); };
-				const double own = scale * of_difference(covariance.Of({ pose, centre }));
-				g.states[s].pose_sigmas[p][size_t(3 + k)] = std::sqrt(std::max({ own, jackknife ? of_difference(jackknife->Of({ pose, centre })) : 0, 0.0 }));
-			}
-		}
+	SigmasFromCentres(problem, [&](const std::vector<const double*>& blocks) { return Eigen::MatrixXd(scale * covariance.Of(blocks)); }, jackknife, g);
 	const auto of_planes = [&](Eigen::MatrixXd c)
 	{
 		c.row(UnknownIndex::W) *= task.pitch_mm;
