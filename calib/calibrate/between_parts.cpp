@@ -70,10 +70,13 @@ void WidenTilt(const StateLens& whole, size_t state, const std::vector<PartAnswe
 std::vector<PartAnswer> SolveParts(const Calibration& c, int& without_answer)
 {
 	std::vector<PartAnswer> parts;
-	for (const EdgeSubset& half : FourHalvesOfEdges(c.task))
+	// The board's size moves parts and whole alike: it is in the sigmas of the whole, and no scatter of a part.
+	Task task = c.task;
+	task.board.square_sigma_mm = 0;
+	for (const EdgeSubset& half : FourHalvesOfEdges(task))
 	{
 		PartAnswer part{ c.geometry, c.solution };
-		if (RefineJointly(WithEdges(c.task, half), Refinement::EDGES, part.geometry, part.solution))
+		if (RefineJointly(WithEdges(task, half), Refinement::EDGES, part.geometry, part.solution))
 			parts.push_back(part);
 		else
 			++without_answer;
@@ -81,12 +84,13 @@ std::vector<PartAnswer> SolveParts(const Calibration& c, int& without_answer)
 	return parts;
 }
 
-void WidenByPupils(Solution& told)
+void WidenByPupils(Solution& told, double known)
 {
 	const double w = told.w_mm.value, m = PUPIL_MAGNIFICATION_SIGMA;
 	const auto widen = [&](double thin_power, double normal_z, Estimate& f)
 	{
-		f.sigma = std::hypot(f.sigma, 0.5 * (FocalLengthOfReal(1 + m, thin_power, normal_z, w) - FocalLengthOfReal(1 - m, thin_power, normal_z, w)));
+		const double by_pupils = std::hypot(f.sigma, 0.5 * (FocalLengthOfReal(1 + m, thin_power, normal_z, w) - FocalLengthOfReal(1 - m, thin_power, normal_z, w)));
+		f.sigma = std::max(f.sigma, std::min(by_pupils, known));
 	};
 	widen(1 / told.focal_length.value, 1, told.focal_length);
 	for (StateLens& state : told.states)

@@ -7,6 +7,7 @@
 
 #include <tiltcal/calibration.h>
 
+#include <limits>
 #include <vector>
 
 namespace tiltcal
@@ -35,8 +36,8 @@ void WidenByParts(const Solution& whole, const std::vector<PartAnswer>& parts, S
 void WidenPlacesByParts(const Geometry& whole, const std::vector<PartAnswer>& parts, Geometry& told);
 
 /// A thin lens does near its axis what real ones of any pupil magnification do, each with an f of its own (model/thin_lens_of_real.h): the sigma of f is
-/// widened by what is not known of that. Those of photographic lenses lie between some 0.5 (telephoto) and 1.7 (wide angle, retrofocus), about 1.
-void WidenByPupils(Solution& told);
+/// widened by what is not known of that, up to what is `known` of f beforehand (a sigma). Those of photographic lenses lie between some 0.5 (telephoto) and 1.7 (wide angle, retrofocus), about 1.
+void WidenByPupils(Solution& told, double known = std::numeric_limits<double>::infinity());
 
 }
 

@@ -28,6 +28,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace tiltcal
 {
@@ -109,6 +110,7 @@ void FindRealLens(const Task& through_rims, const CalibrateOptions& o, Calibrati
 	});
 	c.real_lens = std::move(found.tilts);
 	const RealLens& lens = *c.real_lens;
+	c.fits_without_answer += lens.used ? found.fits_without_answer : 0;
 	if (!lens.failure.empty())
 	{
 		if (asked)
@@ -163,12 +165,15 @@ void WidenWhereGlassShows(const CalibrateOptions& o, Calibration& c)
 /// The sigma of a thin lens's f, however well it fits: no photograph tells it from a real lens with pupils of two sizes.
 void WidenByUnknownPupils(Calibration& c)
 {
-	const auto& priors = c.task.priors;
-	const bool told_f = std::any_of(priors.begin(), priors.end(), [](const Prior& p) { return p.quantity == Quantity::FOCAL_LENGTH; });
-	if (c.solution.model == Model::PAPER || c.RealLensIsUsed() || told_f)
+	if (c.solution.model == Model::PAPER || c.RealLensIsUsed())
 		return;
+	// What is told of f before is known of whatever lens it is.
+	double known = std::numeric_limits<double>::infinity();
+	for (const Prior& p : c.task.priors)
+		if (p.quantity == Quantity::FOCAL_LENGTH)
+			known = std::min(known, p.sigma);
 	for (Solution* told : { &c.solution, &c.render })
-		WidenByPupils(*told);
+		WidenByPupils(*told, known);
 }
 
 /// What the places of corners say, and what they do not.

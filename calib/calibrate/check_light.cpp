@@ -221,9 +221,9 @@ LightCheck CheckLight(const Calibration& c)
 		}
 	light.clipped_share = edges > 0 ? clipped / edges : 0;
 	const Estimate bend = MeanOfPhotographs(slopes, weights);
+	light.bend = bend;
 	if (!std::isfinite(bend.value))
 		return light;
-	light.bend = bend;
 	light.exponent = ExponentOf(c, light.bend);
 	light.bend_of_states = BendOfStates(state, slopes, weights);
 	return light;

@@ -207,7 +207,18 @@ Task SolveThroughRims(const Task& measured, const CalibrateOptions& o, Calibrati
 		return c.task;
 	o.log.Info("solving geometry and lens once more, with the rims that vignette");
 	const Calibration without = c;
-	SolveAgain(WithoutEdgeBias(measured, c.geometry, c.solution, RimsOf(WrittenRims(c))), o, c);
+	try
+	{
+		SolveAgain(WithoutEdgeBias(measured, c.geometry, c.solution, RimsOf(WrittenRims(c))), o, c);
+	}
+	catch (const Error& refusal)
+	{
+		if (refusal.Code() != EXIT_REFUSED)
+			throw;
+		o.log.Info(fmt::format("with the rims there is no answer ({}): they are left to the brightness", refusal.what()));
+		c = without;
+		return c.task;
+	}
 	// Brightness alone told the first rim: what else darkens corners does not cut blurs.
 	if (!(c.solution.held_out_px > 0 && c.solution.held_out_px < WORTH_IT * without.solution.held_out_px))
 	{

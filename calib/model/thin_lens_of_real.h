@@ -13,7 +13,8 @@ const double PUPIL_MAGNIFICATION_SIGMA = 0.35;
 /// |q + e_z / w|, 1/mm, of the thin lens that does near its axis what one of the power 1/f and the pupil magnification m does
 /// (povray-patch/lens/MODEL.md, Real lenses). normal_z: of the unit lens normal, along the sensor's; w_mm: a thin lens's, the exit pupil
 /// stands m w before the sensor.
-inline double PowerOfThinLens(double m, double power, double normal_z, double w_mm) { return m * power - (m - 1) * normal_z / w_mm; }
+template<typename T>
+inline T PowerOfThinLens(const T& m, const T& power, const T& normal_z, const T& w_mm) { return m * power - (m - T(1)) * normal_z / w_mm; }
 
 /// The other way round: f, mm, of a real lens of the pupil magnification m that does near its axis what a thin one of `thin_power` does.
 inline double FocalLengthOfReal(double m, double thin_power, double normal_z, double w_mm) { return m / (thin_power + (m - 1) * normal_z / w_mm); }

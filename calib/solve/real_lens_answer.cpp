@@ -233,8 +233,10 @@ std::optional<RealLensAnswer> SolveSceneLens(const Task& task, const Geometry& g
 	// The same units: what this lens leaves out.
 	const RealLensFit before{ task, FEW, fit.error };
 	RealLensNumbers y = six;
-	if (const std::optional<RealLensFit::Judged> of_six = before.Judge(before.EdgesAbout(y), y))
-		answer.held_out_before = of_six->held_out;
+	// In these units it stands a little elsewhere: what is left out is predicted from a minimum.
+	if (before.Minimise(before.EdgesAbout(y), y, false))
+		if (const std::optional<RealLensFit::Judged> of_six = before.Judge(before.EdgesAbout(y), y))
+			answer.held_out_before = of_six->held_out;
 	return answer;
 }
 

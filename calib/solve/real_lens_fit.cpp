@@ -49,6 +49,33 @@ struct LikelyMagnification
 	}
 };
 
+/// --fix, --prior and EXIF, of this lens and of how it stands in the untilted state.
+struct LikelyByPrior
+{
+	Prior prior;
+	double pitch_mm, r;
+
+	template<typename T>
+	bool operator()(const T* lens, const T* state, T* residual) const
+	{
+		using std::sqrt;
+		const T f = T(pitch_mm) / lens[POWER], d = T(2 * r) * lens[OPENING], w = state[W] * T(pitch_mm) / lens[MAGNIFICATION];
+		const T normal_z = T(1) / sqrt(state[NX] * state[NX] + state[NY] * state[NY] + T(1));
+		const double value = prior.value;
+		switch (prior.quantity)
+		{
+		case Quantity::FOCAL_LENGTH: residual[0] = f - T(value); break;
+		case Quantity::F_NUMBER: residual[0] = f / d - T(value); break;
+		case Quantity::IMAGE_DISTANCE: residual[0] = w - T(value); break;
+		case Quantity::APERTURE_DIAMETER: residual[0] = d - T(value); break;
+		// 1/U to first order: a lens may be focused beyond infinity on the way.
+		case Quantity::FOCUS_DISTANCE: residual[0] = (T(1 / value) - (PowerOfThinLens(lens[MAGNIFICATION], T(1) / f, normal_z, w) * normal_z - T(1) / w)) * T(value * value); break;
+		}
+		residual[0] /= T(prior.sigma);
+		return true;
+	}
+};
+
 /// The rims start from where a thin lens has them, which is right but for a factor of two or so.
 const double SIGMA_OF_LOG_RIM = 0.7;
 
@@ -74,6 +101,9 @@ void AddWhatIsLikely(const RealLensFit& fit, RealLensNumbers& x, ceres::Problem&
 			AddLikely<tilt_lens::AberrationTerms>(x.c.data(), k, 0, fit.likely_c[size_t(k)], problem);
 	if (x.magnification_free)
 		problem.AddResidualBlock(new ceres::AutoDiffCostFunction<LikelyMagnification, 1, LENS_SIZE>(new LikelyMagnification), nullptr, x.lens.data());
+	for (const Prior& prior : fit.task.priors)
+		problem.AddResidualBlock(new ceres::AutoDiffCostFunction<LikelyByPrior, 1, LENS_SIZE, STATE_SIZE>(new LikelyByPrior{ prior, fit.task.pitch_mm, x.r }), nullptr,
+			x.lens.data(), x.states[0].data());
 	for (int k = 0; x.rims_free && k < RIM_SIZE * int(x.sides.size()); ++k)
 		AddLikely<RIMS_SIZE>(x.rims.data(), k, fit.rims_about[size_t(k)], SIGMA_OF_LOG_RIM, problem);
 }
@@ -194,13 +224,17 @@ std::vector<PhotographBlocks> WithEdges(const std::vector<PhotographBlocks>& pho
 	return part;
 }
 
-Eigen::VectorXd VarianceByParts(ceres::Problem& problem, const std::vector<PhotographBlocks>& photographs, const std::vector<EdgeSubset>& parts, const std::vector<const double*>& blocks)
+Eigen::VectorXd VarianceByParts(ceres::Problem& problem, const std::vector<PhotographBlocks>& photographs, const std::vector<EdgeSubset>& parts, const std::vector<const double*>& blocks, bool& any)
 {
 	Eigen::VectorXd farthest = Eigen::VectorXd::Zero(Eigen::Index(PlacesOfBlocks(problem, {}).Of(blocks).size()));
+	any = false;
 	for (const EdgeSubset& part : parts)
 		// Too few photographs or edges to tell all numbers apart say nothing against the whole.
 		if (const std::optional<PartsAnswer> alone = AnswerOfPart(problem, photographs, WithEdges(photographs, part), blocks))
+		{
+			any = true;
 			farthest = farthest.cwiseMax(alone->step.cwiseAbs2() - alone->variance);
+		}
 	return farthest;
 }
 
@@ -247,7 +281,7 @@ std::optional<RealLensFit::Judged> RealLensFit::Judge(const std::vector<RealLens
 		judged.by_photographs = jackknife->Of(shared);
 		judged.held_out = jackknife->HeldOut();
 	}
-	judged.variance_by_parts = VarianceByParts(problem, photographs, FourHalvesOfEdges(task), shared);
+	judged.variance_by_parts = VarianceByParts(problem, photographs, FourHalvesOfEdges(task), shared, judged.parts_answer);
 	return judged;
 }
 

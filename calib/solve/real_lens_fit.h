@@ -83,6 +83,7 @@ struct RealLensFit
 		/// Of every number what four halves of the edges (solve/half_of_edges.h), each by itself, are apart from the whole, linear about it, squared and less what the half
 		/// scatters itself: the farthest. What the model leaves out is the same in every photograph, by which neither residuals nor photographs scatter.
 		Eigen::VectorXd variance_by_parts;
+		bool parts_answer = false;                   ///< one of them at least
 
 		/// By edges or photographs, the larger.
 		double Variance(int k) const { return std::max(by_edges(k, k), by_photographs ? (*by_photographs)(k, k) : 0); }

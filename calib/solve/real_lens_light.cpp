@@ -199,6 +199,9 @@ std::vector<RealLensExposure> ExposuresOf(const Task& task, bool shared_poses, d
 				all.push_back({ s, p, shared_poses, blank, task.states[s].photos[p].stop });
 				Add(white, &task.board, all.back());
 			}
+	// A gradient that one photograph alone shows is its own: left out with it nothing would tell it.
+	for (RealLensExposure& exposure : all)
+		exposure.lit_alike = exposure.lit_alike && std::count_if(all.begin(), all.end(), [&](const RealLensExposure& other) { return other.photo == exposure.photo; }) > 1;
 	return all;
 }
 

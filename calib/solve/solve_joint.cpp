@@ -86,6 +86,10 @@ bool RefineJointly(const Task& task, Refinement kind, Geometry& geometry, Soluti
 double HeldOutOf(const Task& task, const Geometry& geometry, const Solution& solution, const ModelError& error)
 {
 	Geometry g = geometry;
+	// As of a real lens every photograph is predicted by itself, its pose its own.
+	g.shared_poses = false;
+	for (StateGeometry& state : g.states)
+		state.lens_centre = { 0, 0, 0 };
 	Unknowns x = UnknownsOf(solution);
 	x.untilted_free = task.untilted_free;
 	const JointFit fit{ task, solution.lens, Refinement::EDGES, error, false };

@@ -84,7 +84,8 @@ double BestFocus(const RealLensNumbers& x, size_t s, double pitch_mm)
 	return across.inverse().row(2).dot(from);
 }
 
-RealLensState StateOf(const RealLensAnswer& answer, size_t s, size_t photographs, double pitch_mm, const std::vector<double>& sigma)
+/// `board`: relative sigma of the board's size.
+RealLensState StateOf(const RealLensAnswer& answer, size_t s, size_t photographs, double pitch_mm, const std::vector<double>& sigma, double board)
 {
 	const RealLensNumbers &x = answer.numbers, &stands = answer.about_shared_poses ? *answer.about_shared_poses : x;
 	const Eigen::Vector4d thin = ThinLensOf(Eigen::Map<const Eigen::VectorXd>(stands.states[s].data(), STATE_SIZE), Eigen::Map<const Eigen::VectorXd>(x.lens.data(), LENS_SIZE), pitch_mm);
@@ -95,7 +96,12 @@ RealLensState StateOf(const RealLensAnswer& answer, size_t s, size_t photographs
 	Eigen::MatrixXd apart = Eigen::MatrixXd::Zero(answer.judged.by_edges.rows(), answer.judged.by_edges.cols());
 	for (const size_t k : { at + NX, at + NY })
 		apart(Eigen::Index(k), Eigen::Index(k)) = answer.judged.variance_by_parts[Eigen::Index(k)];
-	const auto fill = [&](const Eigen::MatrixXd& of_numbers, StateLens& lens) { FillStateLens(q, thin[3], CovarianceOfThinLens(x, s, of_numbers, pitch_mm), lens); };
+	// A larger board is farther away, and so is the plane of focus; image distances are of the pixels' size.
+	const Eigen::Vector4d by_size(-q.x, -q.y, -q.z, 0);
+	const auto fill = [&](const Eigen::MatrixXd& of_numbers, StateLens& lens)
+	{
+		FillStateLens(q, thin[3], CovarianceOfThinLens(x, s, of_numbers, pitch_mm) + board * board * by_size * by_size.transpose(), lens);
+	};
 	for (const auto& [lens, beside] : { std::pair(&state.as_it_scatters, Eigen::MatrixXd(0 * apart)), std::pair(&state.lens, apart) })
 	{
 		fill(answer.judged.by_edges + beside, *lens);
@@ -143,7 +149,8 @@ std::vector<RimEstimate> RimsOf(const RealLensAnswer& answer, const std::vector<
 			const int power = rim.distance > 0 ? 0 : number == LOG_RADIUS ? 1 : 2;
 			const double by_edges = RelativeSigma(answer.numbers, answer.judged.by_edges, at + number, power);
 			const double by_photographs = answer.judged.by_photographs ? RelativeSigma(answer.numbers, *answer.judged.by_photographs, at + number, power) : 0;
-			return std::hypot(std::max(by_edges, by_photographs), board);
+			const double opening_by_parts = std::sqrt(answer.judged.variance_by_parts[OPENING]) / answer.numbers.lens[OPENING];
+			return std::hypot(std::max(by_edges, by_photographs), board, opening_by_parts);
 		};
 		const RimEstimate& held = before[rims.size()];
 		const auto with = [&](double value, double relative, const Estimate& told)
@@ -202,7 +209,9 @@ RealLens Described(const Task& task, const RealLensAnswer& answer, const std::ve
 	for (size_t k = 0; k < found.aberrations_mm.size(); ++k)
 		found.aberrations_mm[k] = { x.c[k], sigma[LENS_SIZE + k] };
 	for (size_t s = 0; s < task.states.size(); ++s)
-		found.states.push_back(StateOf(answer, s, task.states[s].photos.size(), task.pitch_mm, sigma));
+		found.states.push_back(StateOf(answer, s, task.states[s].photos.size(), task.pitch_mm, sigma, board));
+	// f changes with 1/U alone, by f^2 of it.
+	found.focal_length_mm.sigma = std::hypot(found.focal_length_mm.sigma, board * f * f * found.states[0].lens.q.z);
 	found.opening_on_axis_mm = OpeningOnAxis(found);
 	WidenHiddenStop(found);
 	for (const std::array<double, 2>& place_and_blur : answer.residuals)
@@ -223,10 +232,17 @@ void WidenHiddenStop(RealLens& lens)
 {
 	if (!lens.RimHoldsBackTheAxis())
 		return;
-	const double m = lens.pupil_magnification.value;
-	lens.pupil_magnification.sigma = std::hypot(lens.pupil_magnification.sigma, PUPIL_MAGNIFICATION_SIGMA);
+	// Of a ratio, relative; the exit pupil is as much farther away, and f follows as it does for a thin lens's real ones (WidenByPupils).
+	const auto widen = [](Estimate& e, double by) { e.sigma = std::hypot(e.sigma, by); };
+	const double m = lens.pupil_magnification.value, relative = PUPIL_MAGNIFICATION_SIGMA;
+	if (!lens.states.empty())
+	{
+		const double w = lens.states[0].image_distance_mm.value / m, thin_power = PowerOfThinLens(m, 1 / lens.focal_length_mm.value, 1.0, w);
+		widen(lens.focal_length_mm, 0.5 * (FocalLengthOfReal(m * (1 + relative), thin_power, 1, w) - FocalLengthOfReal(m * (1 - relative), thin_power, 1, w)));
+	}
 	for (RealLensState& state : lens.states)
-		state.image_distance_mm.sigma = std::hypot(state.image_distance_mm.sigma, state.image_distance_mm.value / m * PUPIL_MAGNIFICATION_SIGMA);
+		widen(state.image_distance_mm, state.image_distance_mm.value * relative);
+	widen(lens.pupil_magnification, m * relative);
 }
 
 RealLenses FindRealLens(const Task& task, const Task& through_rims, const Geometry& geometry, const Solution& thin, const std::vector<RimEstimate>& rims,
@@ -235,12 +251,14 @@ RealLenses FindRealLens(const Task& task, const Task& through_rims, const Geomet
 	RealLenses found;
 	const Stopwatch time;
 	const std::optional<RealLensAnswer> six = SolveRealLens(through_rims, geometry, thin, RimsOf(rims));
-	if (!six)
+	// Without the poses that are shared nobody knows where the pupil of a tilted lens is.
+	if (!six || (geometry.shared_poses && !six->about_shared_poses))
 	{
 		found.tilts.failure = "the fit did not converge, or the photographs do not tell its numbers apart: photograph more inclined boards, sharp in one part and blurred in another, to the picture's corners";
 		return found;
 	}
 	found.tilts = Described(task, *six, rims);
+	found.fits_without_answer = six->judged.parts_answer ? 0 : 1;
 	found.tilts.held_out_thin = HeldOutOf(task, geometry, thin, six->error);
 	found.tilts.seconds = time.Seconds();
 	if (!judge(found.tilts))

@@ -172,7 +172,7 @@ TEST(BetweenParts, TheThinLensOfAnyPupilMagnificationHasTheRealLensesFocalLength
 	{
 		const double U = f * (1 / m + 1 / M), w = f * (m + M) / m, thin_power = 1 / U + 1 / w;
 		EXPECT_NEAR(FocalLengthOfReal(m, thin_power, 1, w), f, 1e-12 * f) << m;
-		EXPECT_NEAR(PowerOfThinLens(m, 1 / f, 1, w), thin_power, 1e-12 / f) << m;
+		EXPECT_NEAR(PowerOfThinLens(m, 1 / f, 1.0, w), thin_power, 1e-12 / f) << m;
 	}
 }
 

@@ -169,7 +169,8 @@ TEST(CalibrateVignetting, UnevenLightIsNotTakenForTheLens)
 TEST(CalibrateVignetting, SigmasAreHonest)
 {
 	const Calibration truth = synthetic::Shaded(TiltedBothWays(), RIM, 0, 1, 3);
-	double squares[2] = { 0, 0 };
+	const double darkening = EstimateVignetting(truth).answers[FalloffKind(true, true)].darkening.value;
+	double squares[3] = { 0, 0, 0 };
 	const unsigned runs = 30;
 	std::mt19937 random(1);
 	std::normal_distribution<double> normal(0, 0.01);
@@ -187,6 +188,7 @@ TEST(CalibrateVignetting, SigmasAreHonest)
 		const FalloffAnswer& found = v.answers[FalloffKind(true, true)];
 		squares[0] += std::pow(Off(found.radius_mm, 15), 2) / runs;
 		squares[1] += std::pow(Off(found.distance_mm, 33), 2) / runs;
+		squares[2] += std::pow(Off(found.darkening, darkening), 2) / runs;
 	}
 	for (const double s : squares)
 	{

@@ -30,13 +30,19 @@ TEST(RealLens, AHiddenStopTellsNoPupilMagnification)
 	lens.aperture_diameter_mm = lens.opening_on_axis_mm = { 20, 0.1 };
 	lens.states.resize(1);
 	lens.states[0].image_distance_mm = { 40, 0.5 };
+	lens.focal_length_mm = { 45, 0.1 };
 	WidenHiddenStop(lens);
 	EXPECT_EQ(lens.pupil_magnification.sigma, 0.02);
 	EXPECT_EQ(lens.states[0].image_distance_mm.sigma, 0.5);
 	lens.opening_on_axis_mm.value = 18;
 	WidenHiddenStop(lens);
-	EXPECT_DOUBLE_EQ(lens.pupil_magnification.sigma, std::hypot(0.02, PUPIL_MAGNIFICATION_SIGMA));
-	EXPECT_DOUBLE_EQ(lens.states[0].image_distance_mm.sigma, std::hypot(0.5, 50 * PUPIL_MAGNIFICATION_SIGMA));   // 50 mm to an exit pupil of m 1
+	// Its logarithm's; the exit pupil, 40 mm away, is as much farther or nearer.
+	EXPECT_DOUBLE_EQ(lens.pupil_magnification.sigma, std::hypot(0.02, 0.8 * PUPIL_MAGNIFICATION_SIGMA));
+	EXPECT_DOUBLE_EQ(lens.states[0].image_distance_mm.sigma, std::hypot(0.5, 40 * PUPIL_MAGNIFICATION_SIGMA));
+	// w stays 50 mm and the plane of focus where it is: q = m (1/f - 1/w) does not change with m, so 1/f = 1/w + q/m.
+	const double q = 0.8 * (1 / 45.0 - 1 / 50.0);
+	const auto f = [&](double m) { return 1 / (1 / 50.0 + q / m); };
+	EXPECT_NEAR(lens.focal_length_mm.sigma, std::hypot(0.1, 0.5 * (f(0.8 * (1 + PUPIL_MAGNIFICATION_SIGMA)) - f(0.8 * (1 - PUPIL_MAGNIFICATION_SIGMA)))), 1e-9);
 }
 
 // Nothing but the third-order terms with one P, R or Q less counts, at the slope that is asked for.
