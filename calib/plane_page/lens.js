@@ -25,9 +25,12 @@ const InverseImageDistanceFor = (q, focal_length) => {
 			'tilt the plane of focus less, move it away, or shorten the focal length.');
 	const inverse = InverseImageDistance(q, power);
 	if (!(inverse > 0))
-		Refuse(`The plane of focus lies ${Short(1 / q[2])} from the lens along the axis, within the focal length ${Short(focal_length)}: focus farther away.`);
+		Refuse(`The plane of focus passes ${Short(1 / ScaledLength(q))} from the lens centre, no farther than the focal length ${Short(focal_length)}: focus farther away.`);
 	return inverse;
 };
+
+// Of the plane of focus, degrees: beyond, its distance along the axis is what numbers can no longer say.
+const LARGEST_TILT = 89.99;
 
 const SensorAndPlane = (s, camera) => {
 	const holds_f = s.hold === 'focal_length', phi = s.direction * RadiansPerDegree;
@@ -40,6 +43,8 @@ const SensorAndPlane = (s, camera) => {
 			Refuse(`A lens of focal length ${Short(s.focal_length)}, tilted by ${Short(s.tilt)}°, cannot focus that near: focus farther away.`);
 		return { q: PlaneFromLens(n, 1 / s.focal_length, inverse), inverse };
 	}
+	if (s.drive === 'plane' && !(Math.abs(s.plane_tilt) <= LARGEST_TILT))
+		Refuse('A plane along the optical axis has no distance along it: state it by a point and a normal.');
 	const q = s.drive === 'point' ? PlaneFromWorld(camera, s.point, s.normal)
 		: PlaneAtDistance(FocalPlaneDirection(s.plane_tilt * RadiansPerDegree, phi), s.inverse_distance);
 	return { q, inverse: holds_f ? InverseImageDistanceFor(q, s.focal_length) : 1 / s.image_distance };

@@ -6,7 +6,7 @@ const Rows = [
 	{ name: 'focal_length', label: 'Focal length', unit: 'length', shown: s => s.hold === 'focal_length', log: [0.25, 4] },
 	{ name: 'image_distance', label: 'Image distance', unit: 'length', shown: s => s.hold === 'image_distance', log: [0.25, 4] },
 	{ name: 'tilt', label: 'Lens tilt', unit: '°', shown: s => s.drive === 'lens', range: [-20, 20], limit: 89.9 },
-	{ name: 'plane_tilt', label: 'Tilt of the plane', unit: '°', shown: s => s.drive === 'plane', range: [-89.9, 89.9], limit: 89.99 },
+	{ name: 'plane_tilt', label: 'Tilt of the plane', unit: '°', shown: s => s.drive === 'plane', range: [-89.9, 89.9], limit: LARGEST_TILT },
 	{ name: 'direction', label: 'Recedes towards', unit: '° (0 is up)', shown: s => s.drive !== 'point', range: [-180, 180], limit: 1e6 },
 	{ name: 'inverse_distance', label: 'Focus distance', unit: 'length', shown: s => s.drive !== 'point', inverse: true },
 	{ name: 'f_stop', label: 'Aperture f/', unit: '', shown: () => true, log: [0.7, 64], absolute: true },

@@ -78,7 +78,7 @@ std::vector<int> PilotBlocks(const PilotRequest& request, int width, int height,
 		return blocks;
 	}
 	// Steps of 1/p and 1/p^2, p^3 = p + 1.
-	for(int i = 0; (i < request.blocks) && (all > 0); i++)
+	for(int i = 0; (i < request.blocks) && (blocks.size() < size_t(all)); i++)
 	{
 		const double x = std::fmod(0.5 + i * 0.7548776662466927, 1.0), y = std::fmod(0.5 + i * 0.5698402909980532, 1.0);
 		choose(int(x * columns), int(y * rows));

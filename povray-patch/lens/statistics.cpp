@@ -93,7 +93,7 @@ FocusCounts CountFocus(const TiltLens& lens, const CameraVectors& camera,
 				                   UndistortDirection(lens.distortion, lens.basis_x, lens.basis_y, lens.normal, v));
 			}
 
-			if(!seen && !lens.IsPinhole())
+			if(!seen && (!lens.IsPinhole() || lens.weighs))
 				count.empty++;
 			else if(std::fabs(kappa) <= half_range || kappa == 0.0)
 				count.infinity++;

@@ -140,7 +140,8 @@ void WriteRows(const Options& options, const PilotRun& run)
 	const std::optional<tilt_lens::PilotSetting> own = run.blocks[0].own;
 	if (options.own.empty() && !own)
 		throw tiltcal::Refused("this povray does not tell what the scene says; name it with --setting MIN,MAX,VARIANCE");
-	const Setting setting = options.own.empty() ? Setting{own->min, own->max, own->variance, own->confidence, own->denoise} : WithConfidence(options.own[0], SceneConfidence(run));
+	Setting setting = options.own.empty() ? Setting{own->min, own->max, own->variance, own->confidence, own->denoise} : WithConfidence(options.own[0], SceneConfidence(run));
+	setting.denoise = own && own->denoise;   // no word of --setting
 	tiltcal::WriteText(options.rows, RowsText(run, Pilot(run.blocks, run.pictures), setting));
 }
 

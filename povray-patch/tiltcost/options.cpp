@@ -74,6 +74,7 @@ Setting ParseSetting(const std::string& text)
 	bool good = numbers.size() >= 3 && numbers.size() <= 4;
 	for (const double x : numbers)
 		good = good && x >= 0 && x <= 1e8;
+	good = good && numbers[2] <= 1;   // POV-Ray's own range
 	if (good && numbers.size() == 4)
 		good = numbers[3] > 0 && numbers[3] < 1;
 	if (!good || numbers[1] < 1 || numbers[0] > numbers[1] || std::fmod(numbers[0], 1) != 0 || std::fmod(numbers[1], 1) != 0)
@@ -164,7 +165,7 @@ Options ParseCommandLine(CLI::App& app, int argc, char** argv)
 	app.add_option("--pilot-time", pilot_time, "how long pilots may trace, by the clock: blocks of 16 x 16 pixels that\nhave not begun by then are left out, all but the first 4 [10s]");
 	app.add_option("--pilot-blocks", options.job.most_blocks, "at most so many blocks of 16 x 16 pixels [240]")->check(CLI::Range(1, 1000000));
 	app.add_option("--frames", options.job.frames, "the scene is an animation (+KFI +KFF, or its ini file): pilots of so many of its\nframes, evenly spread; all figures are the film's")->check(CLI::Range(1, 1000));
-	app.add_flag("--scene-may-write", options.job.may_write, "let a scene that opens files for writing (#fopen) do so: it is parsed twice");
+	app.add_flag("--scene-may-write", options.job.may_write, "let a scene that opens files for writing (#fopen) do so: it is parsed twice, with --frames\ntwice a frame");
 	app.add_option("--povray", options.job.povray, "POV-Ray with tilt_lens [the povray beside tiltcost]");
 
 	// CLI11 takes them from the back.

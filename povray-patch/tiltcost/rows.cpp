@@ -68,8 +68,9 @@ std::vector<double> RowSeconds(const std::vector<BlockCost>& blocks, int width, 
 std::string RowsText(const PilotRun& run, const Pilot& pilot, const Setting& setting)
 {
 	std::vector<double> rows = RowSeconds(pilot.BlockCosts(setting), run.log.width, run.log.height);
-	int margin = setting.min > 0 || setting.variance > 0 ? tilt_lens::NeighbourReach : 0;
-	if (margin > 0 && setting.min > 0 && setting.min < tilt_lens::LeastOwnVariance)
+	const std::vector<tilt_lens::SampleLevel> levels = tilt_lens::SampleLevels(setting.min, setting.max, setting.variance, setting.confidence, &Chi2);
+	int margin = levels.size() > 1 ? tilt_lens::NeighbourReach : 0;
+	if (margin > 0 && levels.front().samples < tilt_lens::LeastOwnVariance)
 		margin++;                       // for the first samples that theirs are compared with
 	if (setting.denoise)
 	{

@@ -143,6 +143,12 @@ def formulas(driver, file, cases):
 	blur = driver.execute_script("""const page = PlanePages.pages[0], l = page.lens, o = PlanePages.optics;
 		return [l.near, l.far].map(q => l.corners.map(v => o.SignedBlurWidth(l.w, l.d, l.q, v.map(x => x / o.InverseFocusDistance(q, v))) / page.settings.circle))""")
 	near(blur, [[1] * 4, [-1] * 4], 1e-9, "blur at the limits")
+	# A plane along the axis has no distance along it; what is within the focal length is so by its own distance, 100 cos 65.3.
+	settings, camera = table["lenses"][0]["settings"], table["lenses"][0]["camera"]
+	said = lambda **changed: driver.execute_script("try { PlanePages.SolveLens(arguments[0], arguments[1]); return ''; } catch (e) { return e.message; }",
+		{**settings, "drive": "plane", "hold": "focal_length", "focal_length": 45, "direction": 0, **changed}, camera)
+	assert "state it by a point and a normal" in said(plane_tilt=90, inverse_distance=0), said(plane_tilt=90, inverse_distance=0)
+	assert "passes 41.79" in said(plane_tilt=65.3, inverse_distance=0.01), said(plane_tilt=65.3, inverse_distance=0.01)
 	print(f"{len(values)} values of {len(names)} formulas, {made} lenses and {len(lenses) - made} refusals")
 
 

@@ -143,6 +143,13 @@ rows)
 assert len(t) == 72 and min(t) > 0 and r["margin_rows"] == 2 and r["setting"].startswith("blur_samples 8, 64"), r' || fail "rows.json"
 	expect 0 s.pov $small --rows rows.json --setting 0,4,0
 	python3 -c 'import json; r = json.load(open("rows.json")); assert r["margin_rows"] == 0 and r["setting"].startswith("blur_samples 4 "), r' || fail "--setting"
+	# Margins are of more than one number of samples, wider where the first is below 4, and of denoise, which is the scene's word.
+	scene s.pov "tilt_lens { aperture_diameter 0.4 focal_distance 5 denoise } blur_samples 8"
+	for told in 4,16,0=24 3,16,0.001=26 2,16,0.001=27; do
+		expect 0 s.pov $small --rows rows.json --setting ${told%=*}
+		grep -q "\"margin_rows\":${told#*=}," rows.json || fail "margins of $told: $(head -c 300 rows.json)"
+	done
+	refuses 2 "MIN,MAX" s.pov --setting 1,64,5
 	refuses 2 "goes with none of" s.pov $small --rows rows.json --time 3s
 	refuses 3 nowhere s.pov --rows nowhere/rows.json ;;
 part)

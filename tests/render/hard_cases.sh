@@ -157,6 +157,10 @@ empty)
 	grep 'Pixels in Focus' alpha.exr.log
 	grep -q 'empty 10.00%' alpha.exr.log || fail "the statistics count other than 9 of 90 rows"
 	[ "$("$compare" empty alpha.exr)" = "8.89 1.11" ] || fail "alpha: 8 rows empty and one partly expected: $("$compare" empty alpha.exr)"
+	# A pinhole with vignetting has no light there either.
+	sed 's/aperture_diameter 0.2/vignetting natural/' empty.pov > pinhole.pov
+	render "$ours" pinhole.exr pinhole.pov +UA
+	grep -q 'empty 10.00%' pinhole.exr.log || fail "the statistics of a pinhole with vignetting count other than 9 of 90 rows"
 	# Without +UA the same light, on black.
 	[ "$("$compare" empty black.exr)" = "0.00 0.00" ] || fail "transparent without +UA"
 	check "without +UA" "$compare" rms 0 alpha.exr black.exr

@@ -4,7 +4,7 @@ import os
 import re
 import tempfile
 
-from common import Failure, digest, file_error, read_text, refused
+from common import Failure, digest, file_error, read_text, refused, usage
 from povray_options import error_lines, frames_of, is_ini, one_pixel, output_of, povray_words, quoted, resolve, without_section
 
 SUFFIX = {"PNG": ".png", "EXR": ".exr"}
@@ -45,6 +45,8 @@ def inspect(povray, scene, words, work, may_write):
 def output_name(scene, name, suffix):
 	"""Where POV-Ray would write a still; a film's frames get their numbers before the suffix."""
 	base = os.path.splitext(os.path.basename(without_section(scene)))[0]
+	if name.lower() in ("-", "stdout", "stderr"):
+		raise usage(f"the picture goes to {name}: parts are joined into a file; give +O with its name")
 	if not name:
 		name = base
 	elif name.endswith("/") or os.path.isdir(name):
