@@ -34,7 +34,7 @@ file(REMOVE "${root}/usr/share/povray-tilt/ini/povray.ini")
 
 # Documents, laid out so that their links lead somewhere, and the scenes with their pictures as examples.
 foreach(document README.md povray-patch/RENDERING.md povray-patch/REFERENCE.md povray-patch/ray-error.png povray-patch/LIMITS.md
-		povray-patch/COMING-FROM.md povray-patch/TILT-LENS-INC.md povray-patch/editors/README.md povray-patch/tiltcost/COSTS.md povray-patch/cluster/CLUSTER.md povray-patch/cluster/plan.svg calib/CALIBRATING.md calib/CALIBRATION-JSON.md calib/EXCHANGE.md calib/python/README.md
+		povray-patch/COMING-FROM.md povray-patch/TILT-LENS-INC.md povray-patch/editors/README.md povray-patch/tiltcost/COSTS.md povray-patch/cluster/CLUSTER.md povray-patch/cluster/plan.svg calib/CALIBRATING.md calib/CALIBRATION-JSON.md calib/EXCHANGE.md calib/python/README.md calib/python/example.py calib/prescription/README.md povray-patch/README.md
 		tests/accuracy/ACCURACY.md tests/cli/outside/tilts.cpp tests/cli/outside/CMakeLists.txt)
 	get_filename_component(folder "${document}" DIRECTORY)
 	file(COPY "${source}/${document}" DESTINATION "${doc}/${folder}")

@@ -116,7 +116,7 @@ void AddCalibrate(CLI::App& app, const std::string& command_line)
 		"none: geometry first, then blur")->capture_default_str();
 	c->add_option("--fix", o->fix, "NAME=VALUE: what is known exactly: focal_length, f_number, image_distance, focus_distance, aperture_diameter "
 		"(mm; untilted); blades (their number), blade_rotation (degrees, of a corner: 0 up, 90 right), blade_curvature (0 straight to 1 round); may be repeated");
-	c->add_option("--prior", o->prior, "NAME=VALUE:SIGMA: what is known about; the same names; may be repeated");
+	c->add_option("--prior", o->prior, "NAME=VALUE:SIGMA: what is known about; the same names but those of blades; may be repeated");
 	c->add_option("--flat-field", o->flat_field, "NAME=FILE: photograph of an evenly lit plain surface in the state NAME (untilted included); may be repeated. "
 		"Vignetting is then told by these instead of the board's white squares");
 	c->add_option("--effects", o->effects, "What the camera blocks simulate: auto: what is significant and predicts photographs left out better; all: all that can be estimated; "

@@ -64,7 +64,7 @@ void Run(const Options& o)
 void AddImport(CLI::App& app)
 {
 	auto o = std::make_shared<Options>();
-	CLI::App* c = app.add_subcommand("import", "A camera calibrated with OpenCV as calibration.json, for pose and export.");
+	CLI::App* c = app.add_subcommand("import", "A camera calibrated with OpenCV as calibration.json, for pose, export, undistort, project and unproject.");
 	c->add_option("IN", o->in, "FILE of OpenCV's calibration: image_width, image_height, camera_matrix, distortion_coefficients")->required();
 	c->add_option("--pitch", o->pitch, "Distance of pixel centres on the sensor, mm")->required();
 	c->add_option("--state", o->state, "Name for the state; left out: tilted where there are tauX, tauY, else untilted");

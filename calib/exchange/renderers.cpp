@@ -60,7 +60,7 @@ std::string ArnoldText(const StateCamera& c, double unit_mm)
 	const double x = 2 * view.shift_x_mm / view.width_mm, y = 2 * view.shift_y_mm / view.height_mm;
 	const std::string name = SceneName(c);
 	std::string out = fmt::format("# The camera of state {}, by tiltcal {}. Units: {} mm. It stands at the world's origin and looks along -z, y up.\n"
-		"# Not in it: the tilt of the plane of focus (Arnold has none), field curvature, rims{}. Distortion: connect an image of the -redistort STMap\n"
+		"# Not in it: the tilt of the plane of focus (lens_tilt_angle's signs and unit are not documented), field curvature, rims{}. Distortion: connect an image of the -redistort STMap\n"
 		"# (tiltcal export --stmap) to uv_remap.\n"
 		"options\n{{\n xres {}\n yres {}\n pixel_aspect_ratio 1\n camera \"{}\"\n}}\n\n"
 		"persp_camera\n{{\n name {}\n fov {}\n screen_window_min {} {}\n screen_window_max {} {}\n",
