@@ -125,7 +125,7 @@ keeps)
 pilot_time)
 	# By the clock, also where two threads share one processor: 1 s for both pilots, and what a block lasts that has begun.
 	scene s.pov "$lens"
-	one=$(command -v taskset) && one="$one -c 0"
+	one=$(command -v taskset) && one="$one -c 0" || fail "no taskset (util-linux)"
 	$one "$tiltcost" --povray "$povray" s.pov +W160 +H120 +WT8 --pilot-time 1s >out 2>err || fail "tiltcost on one processor"
 	prints "8 threads"
 	# Wall seconds of both pilots, of which the start was there twice: above them 1 s, and the blocks of 8 threads that were begun, which

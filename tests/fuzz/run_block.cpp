@@ -55,7 +55,8 @@ static bool AllFinite(const std::filesystem::path& file)
 {
 	const Picture picture = ReadExr(file.string());
 	return picture.width == PictureWidth && picture.height == PictureHeight &&
-		std::all_of(picture.rgb.begin(), picture.rgb.end(), [](double value) { return std::abs(value) < 2.0; });
+		std::all_of(picture.rgb.begin(), picture.rgb.end(), [](double value) { return std::abs(value) < 2.0; }) &&
+		std::all_of(picture.alpha.begin(), picture.alpha.end(), [](double value) { return value >= 0.0 && value < 1.001; });   // half floats round 1
 }
 
 static bool NamesALine(const std::string& log, const std::string& scene)

@@ -74,7 +74,7 @@ try
 		throw std::runtime_error("usage: compare_corners PHOTOS.csv RENDERS.csv LIMIT");
 	const auto photos = Read(argv[1]), renders = Read(argv[2]);
 	const double limit = std::stod(argv[3]);
-	bool good = !photos.empty();
+	bool good = !photos.empty() && photos.size() == renders.size();
 	for (const auto& [name, corners] : photos)
 	{
 		const auto render = renders.find(name);

@@ -161,6 +161,9 @@ bokeh)
 		render "$ours" none.png none.pov +UA
 		grep -q 'Samples/Pixel: *min 4 .* Camera Rays: ' none.png.log || fail "$opening: $(grep Samples/Pixel none.png.log)"
 		most=$(sed -n 's/.*Samples\/Pixel:.* mean \([0-9]*\).*/\1/p' spot.ppm.log)
+		grep -q 'Estimated Error: 0.00000 ' none.png.log || fail "$opening: $(grep Estimated none.png.log) where nothing is"
+		render "$ours" none.exr none.pov +UA
+		[ "$("$compare" empty none.exr)" = "100.00 0.00" ] || fail "$opening: of nothing $("$compare" empty none.exr) % are empty"
 		[ "$(sed -n 's/.*Samples\/Pixel:.* mean \([0-9]*\).*/\1/p' none.png.log)" -le "$most" ] || fail "$opening: empty pixels take more samples than even ones: $(grep Samples/Pixel none.png.log)"
 	done
 	# A colour that gets through nowhere is gone.

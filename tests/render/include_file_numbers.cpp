@@ -86,11 +86,12 @@ void CheckPlane(const std::string& line, const std::vector<double>& n)
 	Expect("TL_Image_Distance", line, n[17], lens.image_distance);
 	// On the axis and beside it: signed blur in the frame of the axis, whose z alone matters beside q.P.
 	for(const Vec3d& aside : { Vec3d{ 0.0, 0.0, 0.0 }, 0.2 * lens.basis_x, -0.3 * lens.basis_y })
-		for(const Vec3d& q : { near, far })
+		for(const bool is_far : { false, true })
 		{
+			const Vec3d& q = is_far ? far : near;
 			const Vec3d P = PointAlong(q, axis + aside);
 			const double blur = lens.image_distance * lens.aperture_diameter * (1.0 - Dot(lens.inverse_focus, P)) / Dot(axis, P);
-			Expect(&q == &near ? "blur on the far" : "blur on TL_Wedge", line, std::fabs(blur), c);
+			Expect(is_far ? "blur on the far plane of TL_Wedge" : "blur on its near one", line, std::fabs(blur), c);
 		}
 	if(!(Dot(near - far, axis) > 0.0))
 		Expect("the nearer plane", line, Dot(near - far, axis), 1.0);

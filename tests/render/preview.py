@@ -4,6 +4,7 @@ in a file (Display_File). Every wait has an end."""
 import contextlib
 import glob
 import os
+import pathlib
 import pty
 import re
 import select
@@ -209,6 +210,8 @@ def none():
 	render("-D", "+FN", "+Owithout.png")
 	assert "preview window" not in log(), log()
 	for name, environment in (("unset", NO_SCREEN), ("dead", dict(NO_SCREEN, DISPLAY=":987654"))):
+		for picture in ("f1.png", "f2.png"):
+			pathlib.Path(picture).unlink(missing_ok=True)
 		# At a terminal, where SDL has drivers that draw in letters.
 		ours, its = pty.openpty()
 		with running([POVRAY, "+Is.pov", "+W160", "+H120", "+D", "+P", "+FN", "+Of.png", "+KFF2"], stdin=its, stdout=its, stderr=its,
@@ -223,7 +226,8 @@ def none():
 			os.close(ours)
 		assert said.count(b"preview window") == 1, f"{name}: not one line:\n{said.decode(errors='replace')}"
 		assert b"\x1b" not in said, f"{name}: it draws on the terminal"
-		assert (png("f1.png") == png("without.png")).all(), f"{name}: another picture"
+		for picture in ("f1.png", "f2.png"):
+			assert (png(picture) == png("without.png")).all(), f"{name}: another picture {picture}"
 		print(f"{name}: {[line for line in said.decode().splitlines() if 'preview window' in line][0].strip()}")
 
 

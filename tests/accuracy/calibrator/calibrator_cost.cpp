@@ -21,6 +21,8 @@
 #include <opencv2/core.hpp>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+
 #include <array>
 #include <map>
 
@@ -166,6 +168,9 @@ int main(int argc, char** argv)
 		std::vector<Row> rows = MeasureAll(*Photographs(photos), "photographs", draws, quick);
 		const std::vector<Row> exact = MeasureAll(*ThinLens(), "thin lens", draws, quick);
 		Append(rows, exact);
+		const auto is_empty = [](const Row& row) { return row.answers == 0; };
+		if (rows.size() == exact.size() || std::all_of(rows.begin(), rows.end(), is_empty))
+			throw tiltcal::Refused("no photograph gave an answer");
 		WriteReport(rows, out);
 		fmt::print(stderr, "{} CPU seconds in all; written to {}\n", int(CpuSeconds()), out);
 		return ExactModelsAreUnbiased(exact) ? 0 : tiltcal::EXIT_REFUSED;
