@@ -97,7 +97,7 @@ std::vector<Remark> JudgeWidths(const Calibration& c)
 	std::string widest;
 	for (size_t s = 0; s < c.task.states.size(); ++s)
 		for (size_t p = 0; p < c.task.states[s].photos.size(); ++p)
-			if (const double ratio = RatiosOf(c.task.states[s].photos[p]).most; ratio > most)
+			if (const double ratio = RatiosOf(c.task.states[s].photos[p]).most; std::isfinite(ratio) && ratio > most)   // an edge of no length has none
 			{
 				most = ratio;
 				widest = FileOf(c.task, s, p);
