@@ -180,8 +180,8 @@ TEST(Denoise, MakesNoCometsOfVeryBrightLights)
 				continue;
 			// What LIMITS.md says, to its last digit: these discs have grain to lose.
 			const double pictures = double(Seeds) * Specks::Width * Specks::Height;
-			EXPECT_NEAR(std::sqrt(harm.before / pictures), emission > 30.0 ? 0.28 : 0.20, 0.005);
-			EXPECT_NEAR(std::sqrt(harm.after / pictures), emission > 30.0 ? 0.22 : 0.10, 0.005);
+			EXPECT_NEAR(std::sqrt(harm.before / pictures), emission > 30.0 ? 0.281 : 0.195, 0.0005);
+			EXPECT_NEAR(std::sqrt(harm.after / pictures), emission > 30.0 ? 0.223 : 0.100, 0.0005);
 		}
 	EXPECT_LE(worse, 6);
 }
