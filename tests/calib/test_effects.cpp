@@ -13,10 +13,8 @@
 #include "measure/measure.h"
 #include "measure/measure_colours.h"
 #include "camera/pose.h"
-#include "edge/soft_radius.h"
 #include "support/comma_locale.h"
 #include "support/shaded_lens.h"
-#include "support/synthetic_lens.h"
 #include "support/thin_lens_picture.h"
 #include "effects/vignetting.h"
 #include "camera/write_inc.h"
@@ -137,62 +135,6 @@ TEST(Chromatic, LateralIsExactWithoutNoise)
 	const Chromatic found = EstimateChromatic(c);
 	EXPECT_NEAR(found.lateral[0].value, RED, 1e-3 * RED);   // the slope is linear, the shift is not quite
 	EXPECT_NEAR(found.lateral[1].value, BLUE, 1e-3 * RED);
-}
-
-// The other colours' lenses have other focal lengths, 1/f larger by so much: what each blurs an edge to is traced without our code (support/synthetic_lens).
-TEST(Chromatic, AxialIsWhatOtherFocalLengthsWiden)
-{
-	const double axial[] = { 2e-6, -1.5e-6 }, noise = 0.003;   // of 0.08 px at most, by which even nearly sharp edges change about evenly
-	const auto of_colour = [](double by)
-	{
-		std::vector<State> states;
-		for (const double tilt : { 0.0, 5.0 })
-		{
-			Lens lens = synthetic::Tilted(tilt, 30);
-			lens.f = 1 / (1 / lens.f + by);
-			states.push_back(synthetic::Photograph(tilt ? "tilted" : "untilted", lens, {}, 4));
-		}
-		return synthetic::MakeTask(states);
-	};
-	const Calibration exact = Calibrate(of_colour(0), { Model::PLANE, Poses::SHARED });
-	const Task others[] = { of_colour(axial[0]), of_colour(axial[1]) };
-	double squares = 0;
-	for (unsigned seed = 1; seed <= 5; ++seed)
-	{
-		Calibration c = exact;
-		std::mt19937 random(seed);
-		std::normal_distribution<double> normal(0, noise);
-		for (size_t s = 0; s < c.task.states.size(); ++s)
-			for (size_t p = 0; p < c.task.states[s].photos.size(); ++p)
-			{
-				Photo& photo = c.task.states[s].photos[p];
-				photo.coloured = true;
-				for (size_t k = 0; k < photo.edges.size(); k += 3)
-				{
-					ColourEdge e;
-					e.green = photo.edges[k];
-					for (size_t i = 0; i < 2; ++i)
-					{
-						e.shift[i] = normal(random);
-						e.widening[i] = SoftDiameter(others[i].states[s].photos[p].edges[k].blur) - SoftDiameter(e.green.blur) + normal(random);
-						e.shift_sigma[i] = e.widening_sigma[i] = noise;
-					}
-					photo.colours.push_back(e);
-				}
-			}
-		const Chromatic found = EstimateChromatic(c);
-		for (size_t i = 0; i < 2; ++i)
-		{
-			EXPECT_LT(Off(found.axial_per_mm[i], axial[i]), 3.9) << seed << ": " << found.axial_per_mm[i].value << " +- " << found.axial_per_mm[i].sigma;
-			squares += std::pow(Off(found.axial_per_mm[i], axial[i]), 2);
-		}
-		EXPECT_LT(found.axial_per_mm[0].sigma, 0.1 * axial[0]);
-		const Calibration chosen = Chosen(c);
-		EXPECT_TRUE(Uses(chosen, EffectId::CHROMATIC_AXIAL)) << EffectsText(chosen);
-	}
-	// As for the lateral ones.
-	EXPECT_LT(squares, 29.6);
-	EXPECT_GT(squares, 1.48);
 }
 
 TEST(Chromatic, NothingIsWrittenWhereColoursAgree)
