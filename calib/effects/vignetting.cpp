@@ -303,8 +303,6 @@ std::string WhyNothing(const Calibration& c)
 	return "no photograph has enough white squares that blur leaves flat in their middle: give `flat_field`, or use larger squares";
 }
 
-}
-
 /// Light shows rims in units of the opening.
 void WidenByOpening(const Estimate& aperture, FalloffAnswer& answer)
 {
@@ -319,6 +317,8 @@ void WidenByOpening(const Estimate& aperture, FalloffAnswer& answer)
 		widen(rim.radius_mm);
 		widen(rim.distance_mm);
 	}
+}
+
 }
 
 Vignetting EstimateVignetting(const Calibration& c)
