@@ -30,6 +30,29 @@ inline double RobustSigma(std::vector<double> residuals)
 	return 1.4826 * Median(std::move(residuals));
 }
 
+/// What a model leaves out beside the noise: the standard deviation, common to all, with which in quadrature to their own `sigmas` the residuals scatter as much as that says (RobustSigma); at least
+/// `least`, above 0. Weighed so, they count beside what is known before as much as they know. As many sigmas as residuals, not none.
+inline double ModelScatter(const std::vector<double>& residuals, const std::vector<double>& sigmas, double least)
+{
+	const auto scatter = [&](double common)
+	{
+		std::vector<double> in_sigmas;
+		for (std::size_t k = 0; k < residuals.size(); ++k)
+			in_sigmas.push_back(residuals[k] / std::hypot(sigmas[k], common));
+		return RobustSigma(std::move(in_sigmas));
+	};
+	// Without any noise of their own they scatter by no more than `high` says.
+	double low = least, high = RobustSigma(residuals);
+	if (!(high > low) || scatter(low) <= 1)
+		return least;
+	for (int halving = 0; halving < 30; ++halving)
+	{
+		const double middle = 0.5 * (low + high);
+		(scatter(middle) > 1 ? low : high) = middle;
+	}
+	return high;
+}
+
 /// Of how many standard deviations of one normal number a chi squared of two is as improbable: chi squared of two is beyond
 /// x with the probability exp(-x/2).
 inline double SigmasOfTwo(double chi_squared)

@@ -92,6 +92,9 @@ void LogEffects(const Calibration& c, const Log& log)
 /// what measuring leaves out of sharp edges, of boards too that a thin lens has photographed.
 const double REAL_LENS_IS_WORTH_IT = 0.95;
 
+/// Relative to what is usual; 0: it cannot be had.
+std::string LeftOutText(double held_out) { return held_out > 0 ? fmt::format("to {:.2f} of what is usual", held_out) : "to nobody knows what"; }
+
 /// A real lens where it was asked for; else where a thin one leaves over more than noise, the choice is free, and photographs left out are
 /// predicted better by REAL_LENS_IS_WORTH_IT. With the rims that are written, which decide what of the opening an edge is seen through.
 void FindRealLens(const Task& through_rims, const CalibrateOptions& o, Calibration& c)
@@ -118,14 +121,14 @@ void FindRealLens(const Task& through_rims, const CalibrateOptions& o, Calibrati
 		o.log.Info(fmt::format("no real lens: {}", lens.failure));
 		return;
 	}
-	o.log.Info(fmt::format("real lens {}: photographs left out are predicted to {:.2f} of what is usual by it, to {:.2f} by {}", lens.used ? "taken" : "not taken", lens.held_out, lens.held_out_thin,
+	o.log.Info(fmt::format("real lens {}: photographs left out are predicted {} by it, {} by {}", lens.used ? "taken" : "not taken", LeftOutText(lens.held_out), LeftOutText(lens.held_out_thin),
 		NameOf(c.solution.model)));
 	c.scene_lens = std::move(found.scene);
 	if (!c.scene_lens)
 		return;
 	RealLens& scene = *c.scene_lens;
 	scene.used = scene.held_out > 0 && scene.held_out < WORTH_IT * scene.held_out_thin;
-	o.log.Info(fmt::format("the fifth order {} for scenes: photographs left out are predicted to {:.2f} of what is usual with it, to {:.2f} by six numbers", scene.used ? "taken" : "not taken", scene.held_out, scene.held_out_thin));
+	o.log.Info(fmt::format("the fifth order {} for scenes: photographs left out are predicted {} with it, {} by six numbers", scene.used ? "taken" : "not taken", LeftOutText(scene.held_out), LeftOutText(scene.held_out_thin)));
 }
 
 /// All that is told of a thin lens, and of where it stood. `parts` begin at c.geometry.
@@ -250,6 +253,7 @@ Calibration Solve(const Task& measured, const CalibrateOptions& o)
 	// Last: such a lens is graded by its tilts.
 	WidenByRealLens(c);
 	WidenPlacesByImageDistance(c);
+	WidenRimsByOpening(c.solution.aperture_diameter, c.vignetting);
 	return c;
 }
 

@@ -21,8 +21,8 @@ namespace
 
 const double RAD = M_PI / 180;
 
-/// Blur radius over the square (or the circle's radius) up to which corners are found well (test_blurred.cpp: 0.4).
-const double MOST_BLUR_RATIO = 0.35;
+/// Blur radius over the circle's radius up to which circles are found well (test_blurred.cpp: 0.4).
+const double MOST_BLUR_OF_CIRCLES = 0.35;
 /// px; below it a square has too few pixels.
 const double LEAST_SQUARE = 12;
 /// Edges that stand for all of a photograph: six of each direction reach all quarters (test_spread_order.cpp).
@@ -208,7 +208,7 @@ Candidate ExpectWith(const Calibration& c, const EdgeNoise& noise, size_t s, con
 	out.look.blur_px[0] = least->blur;
 	out.look.blur_px[1] = most->blur;
 	for (const Edge& e : edges)
-		if (e.BlurRatio() > MOST_BLUR_RATIO || e.square_px < LEAST_SQUARE)
+		if (e.BlurRatio() > (board.IsCheckerboard() ? MOST_BLUR_RATIO : MOST_BLUR_OF_CIRCLES) || e.square_px < LEAST_SQUARE)
 			return out;
 	for (Edge& e : edges)
 		noise.Fill(e);

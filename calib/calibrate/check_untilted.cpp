@@ -24,7 +24,7 @@ UntiltedCheck CheckUntilted(const Calibration& c)
 	{
 		for (int round = 0; round < 2; ++round)
 		{
-			fit.model_sigma = std::max(fit.Scale(x), 0.01);
+			fit.model_sigma = fit.LeftOutBy(x);
 			if (!fit.Minimise(x, Free::EVERYTHING, 0))
 				return check;
 		}

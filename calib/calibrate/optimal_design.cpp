@@ -55,7 +55,7 @@ void Design::Prepare(std::vector<NextPhotograph> all, std::vector<std::vector<Ph
 		weight.push_back(photos.empty() || photos[0].edges.empty() ? 0 : usual / double(photos[0].edges.size()));
 	JointFit fit{ task, c.solution.lens, Refinement::EDGES, {}, false };
 	const JointFit of_measured{ c.task, c.solution.lens, Refinement::EDGES, {}, false };
-	fit.error = ErrorOf(of_measured.Residuals(c.geometry, x));
+	fit.error = ErrorOf(c.task, of_measured.Residuals(c.geometry, x));
 	const JointInformation all_known = fit.Information(g, x, measured);
 	information = all_known.measured;
 	gains.assign(looks.size(), Eigen::MatrixXd::Zero(information.rows(), information.cols()));

@@ -50,13 +50,11 @@ bool SameCounts(const Task& task)
 	return true;
 }
 
-/// RMS of the reprojection, with distortion or, where that cannot be told too, without; none where no camera has such poses.
-std::optional<double> RmsOfPoses(const Task& task, const std::vector<Vec3<double>>& normals, bool shared)
+/// RMS of the reprojection; none where no camera has such poses.
+std::optional<double> RmsOfPoses(const Task& task, const std::vector<Vec3<double>>& normals, int terms, bool shared)
 {
-	for (const int terms : { 2, 0 })
-		if (const std::optional<Geometry> g = SolveGeometryIfDetermined(task, { terms, normals, shared }))
-			return g->rms;
-	return std::nullopt;
+	const std::optional<Geometry> g = SolveGeometryIfDetermined(task, { terms, normals, shared });
+	return g ? std::optional(g->rms) : std::nullopt;
 }
 
 /// The camera without distortion, fitted as such, and the lens beside it.
@@ -185,13 +183,19 @@ bool PosesAreShared(const Task& task, const std::vector<Vec3<double>>& normals, 
 	}
 	if (o.poses == Poses::SHARED)
 		return true;
-	const std::optional<double> by_themselves = RmsOfPoses(task, normals, false);
-	// Says why there is none.
-	const double own = by_themselves ? *by_themselves : SolveGeometry(task, { 0, normals, false }).rms;
-	const std::optional<double> shared = RmsOfPoses(task, normals, true);
-	const bool same = shared && *shared < 2 * own + 0.1;
+	std::optional<double> own, shared;
+	// Alike: with distortion or, where either cannot tell that too, without.
+	for (const int terms : { 2, 0 })
+		if (!own || !shared)
+		{
+			own = RmsOfPoses(task, normals, terms, false);
+			shared = RmsOfPoses(task, normals, terms, true);
+		}
+	if (!own)
+		own = SolveGeometry(task, { 0, normals, false }).rms;   // says why there is none
+	const bool same = shared && *shared < 2 * *own + 0.1;
 	o.log.Info(fmt::format("board poses {} between the states: reprojection {} if shared, {:.3f} px with own poses", same ? "shared" : "differ",
-		shared ? fmt::format("{:.3f} px", *shared) : "without an answer", own));
+		shared ? fmt::format("{:.3f} px", *shared) : "without an answer", *own));
 	return same;
 }
 
@@ -210,6 +214,21 @@ Task SolveThroughRims(const Task& measured, const CalibrateOptions& o, Calibrati
 	try
 	{
 		SolveAgain(WithoutEdgeBias(measured, c.geometry, c.solution, RimsOf(WrittenRims(c))), o, c);
+		// Brightness alone told the first rim: what else darkens corners does not cut blurs.
+		if (!(c.solution.held_out_px > 0 && c.solution.held_out_px < WORTH_IT * without.solution.held_out_px))
+		{
+			o.log.Info("the edges do not show these rims: blur of photographs left out is not predicted better with them");
+			c = without;
+			return c.task;
+		}
+		c.task = WithoutEdgeBias(measured, c.geometry, c.solution);
+		c.vignetting = EstimateVignetting(c);
+		ChooseEffects(o.effects, c);
+		SolveAgain(WithoutEdgeBias(measured, c.geometry, c.solution, RimsOf(WrittenRims(c))), o, c);
+		SolvePinhole(SolverOf(c.solution.model), c);
+		RefineAndCheck(o, c);
+		ChooseEffects(o.effects, c);
+		return WithoutEdgeBias(measured, c.geometry, c.solution);
 	}
 	catch (const Error& refusal)
 	{
@@ -219,21 +238,6 @@ Task SolveThroughRims(const Task& measured, const CalibrateOptions& o, Calibrati
 		c = without;
 		return c.task;
 	}
-	// Brightness alone told the first rim: what else darkens corners does not cut blurs.
-	if (!(c.solution.held_out_px > 0 && c.solution.held_out_px < WORTH_IT * without.solution.held_out_px))
-	{
-		o.log.Info("the edges do not show these rims: blur of photographs left out is not predicted better with them");
-		c = without;
-		return c.task;
-	}
-	c.task = WithoutEdgeBias(measured, c.geometry, c.solution);
-	c.vignetting = EstimateVignetting(c);
-	ChooseEffects(o.effects, c);
-	SolveAgain(WithoutEdgeBias(measured, c.geometry, c.solution, RimsOf(WrittenRims(c))), o, c);
-	SolvePinhole(SolverOf(c.solution.model), c);
-	RefineAndCheck(o, c);
-	ChooseEffects(o.effects, c);
-	return WithoutEdgeBias(measured, c.geometry, c.solution);
 }
 
 }

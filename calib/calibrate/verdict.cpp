@@ -42,7 +42,7 @@ public:
 		if (!c.refined)
 			Say(Grade::POOR, "the joint refinement did not converge: geometry and blur are as solved one after the other, and each one's sigma does not know of the other's");
 		if (c.fits_without_answer > 0)
-			Say(Grade::FAIR, fmt::format("{} of the fits that tell how far parts of the edges put the lens apart did not converge: the sigmas do not hold that, and may be too small. Photograph more poses", c.fits_without_answer));
+			Say(Grade::FAIR, fmt::format("{} of the fits that tell how far parts of the edges put the lens apart had no answer: the sigmas do not hold that, and may be too small. Photograph more poses", c.fits_without_answer));
 		// Light first: it may be why photographs and an untilted lens look as if they were not what they are.
 		AddRemarks(JudgeLight(c.light));
 		AddRemarks(JudgeLightOfStates(c));
@@ -120,13 +120,16 @@ private:
 
 	void Tilt(size_t s)
 	{
-		const double wanted = 0.03, sigma = c.TiltOf(s).lens_tilt.sigma;
-		const bool by_model = c.TiltAsItScatters(s).lens_tilt.sigma <= wanted;
+		const double wanted = 0.03, sigma = c.TiltOf(s).lens_tilt.sigma, scatters = c.TiltAsItScatters(s).lens_tilt.sigma;
+		// A larger board is farther away, and its plane of focus less steep.
+		const double by_board = c.task.board.square_sigma_mm / c.task.board.square_mm * std::abs(c.TiltOf(s).lens_tilt.value);
+		const bool by_model = scatters <= wanted, by_size = !by_model && scatters * scatters - by_board * by_board <= wanted * wanted;
 		if (sigma > wanted)
 			Say(sigma > 0.15 ? Grade::POOR : Grade::FAIR, fmt::format("state {}: the tilt is known to {:.2f} degrees only: {}", StateName(s), sigma, by_model && c.RealLensIsUsed()
 				? "parts of the edges, or the fifth order, put it apart: more photographs do not tell it better, a smaller aperture does"
 				: by_model
 				? "parts of the edges put it apart, by what a thin lens leaves out of the blur: more photographs do not tell it better, a smaller aperture does"
+				: by_size ? "the board's size makes most of that: measure its squares better, over many of them"
 				: "photograph the board in more poses, inclined so that it is sharp in one part and blurred in another"));
 		if (c.solution.states[s].chosen_by_power)
 			Say(Grade::POOR, fmt::format("state {}: two planes of focus fit the blur, and the one that keeps the focal length was taken: photograph more poses", StateName(s)));

@@ -91,19 +91,17 @@ std::vector<Remark> JudgePhotographs(const Calibration& c)
 
 std::vector<Remark> JudgeWidths(const Calibration& c)
 {
-	// Exact pictures of a thin lens (test_calibrate_blurred.cpp): up to here what is wrong with the tilt is below its sigma, at 0.33 it is 0.3 %.
-	const double quarter = 0.25;
 	double most = 0;
 	std::string widest;
 	for (size_t s = 0; s < c.task.states.size(); ++s)
 		for (size_t p = 0; p < c.task.states[s].photos.size(); ++p)
-			if (const double ratio = RatiosOf(c.task.states[s].photos[p]).most; std::isfinite(ratio) && ratio > most)   // an edge of no length has none
+			if (const double ratio = RatiosOf(c.task.states[s].photos[p]).most; ratio > most)
 			{
 				most = ratio;
 				widest = FileOf(c.task, s, p);
 			}
 	// Circles are read to wider blurs.
-	if (!c.task.board.IsCheckerboard() || most <= quarter)
+	if (!c.task.board.IsCheckerboard() || c.task.states.size() < 2 || most <= MOST_BLUR_RATIO)
 		return {};
 	return { { Grade::FAIR, fmt::format("{}: the blur's radius reaches {:.2f} of a square. Beyond a quarter the discs of an edge reach into the next one's, and the sigmas need not hold how far tilts are off by that, "
 		"some tenths of a per cent: take larger squares, a smaller aperture, or boards nearer to what is in focus", widest, most) } };

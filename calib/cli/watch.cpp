@@ -73,6 +73,7 @@ public:
 			files.Look();
 			field_files.Look();
 			LookAtFields();
+			LookOnceMore();
 			if (MeasureNew() && !files.Pending() && !field_files.Pending() && !WasInterrupted())
 				CalibrateAgain();
 			for (int k = 0; k < 5 && !WasInterrupted(); ++k)
@@ -114,6 +115,17 @@ private:
 				Tell(file + ": is gone");
 		changed = changed || there != fields_seen;
 		fields_seen = std::move(there);
+	}
+
+	/// At flat fields that could not be read: once, if nothing else has come.
+	void LookOnceMore()
+	{
+		if (changed)
+			again = Again::NOT;
+		if (again != Again::LATER || std::chrono::steady_clock::now() < look_again)
+			return;
+		again = Again::DONE;
+		changed = true;
 	}
 
 	/// Measures what has arrived or changed and forgets what is gone. True: the photographs, or flat fields, are others than those calibrated last.
@@ -261,6 +273,11 @@ private:
 			// What cannot be read may be whole, or gone, when it is looked at next.
 			if (is_writing && e.Code() == EXIT_FILE)
 				throw;
+			if (e.Code() == EXIT_FILE && again != Again::DONE)
+			{
+				again = Again::LATER;
+				look_again = std::chrono::steady_clock::now() + ONCE_MORE;
+			}
 			why_not = e.what();
 			Tell(fmt::format("no calibration of {} photograph{} yet: {}", now.photographs, now.photographs == 1 ? "" : "s", why_not.substr(0, why_not.find('\n'))));
 			WriteWaiting(now.task);
@@ -333,7 +350,9 @@ private:
 	void Finish()
 	{
 		notes.on = false;
-		if (changed)
+		if (changed && usable && field_files.Pending())
+			Tell("a flat field is being written still: the last calibration stands");
+		else if (changed)
 			CalibrateAgain();
 		if (!usable)
 		{
@@ -361,6 +380,8 @@ private:
 	std::map<std::string, FileStamp> fields_seen;
 	WatchNotes notes;
 	bool changed = false, usable = false;
+	enum class Again { NOT, LATER, DONE } again = Again::NOT;
+	std::chrono::steady_clock::time_point look_again;
 	std::string why_not;
 	double last_seconds = 0;
 	std::optional<Calibration> last;

@@ -75,10 +75,10 @@ void WatchedFiles::Look()
 			const auto [at, is_new] = known.emplace(file, Entry{ stamp, now });
 			if (!is_new && !(at->second.stamp == stamp))
 				at->second = { stamp, now };
-			if (stamp.size > 0 && now - at->second.since >= STANDS_STILL)
-				settled.back().files.push_back(file);
-			else
+			if (now - at->second.since < STANDS_STILL)
 				pending = true;
+			else if (stamp.size > 0)   // an empty one that stands still is no photograph yet, and nobody waits for it
+				settled.back().files.push_back(file);
 		}
 	}
 	for (auto at = known.begin(); at != known.end();)

@@ -167,7 +167,8 @@ EdgeFit FitEdge(const std::vector<EdgeSample>& samples, const EdgeProfile& profi
 	double scale = 0.25 * (p[HIGH] - p[LOW]);
 	for (int round = 0; round < 3; ++round)
 	{
-		if (!Descend(p, of, scale, 30))
+		// The first rounds are starts of the next one's.
+		if (!Descend(p, of, scale, 30) && round == 2)
 			return fit;
 		scale = ResidualScale(p, of);
 	}

@@ -303,22 +303,6 @@ std::string WhyNothing(const Calibration& c)
 	return "no photograph has enough white squares that blur leaves flat in their middle: give `flat_field`, or use larger squares";
 }
 
-/// Light shows rims in units of the opening.
-void WidenByOpening(const Estimate& aperture, FalloffAnswer& answer)
-{
-	const double relative = aperture.sigma / aperture.value;
-	const auto widen = [&](Estimate& e) { e.sigma = std::hypot(e.sigma, relative * e.value); };
-	if (!(relative > 0) || !std::isfinite(relative))
-		return;
-	widen(answer.radius_mm);
-	widen(answer.distance_mm);
-	for (RimEstimate& rim : answer.rims)
-	{
-		widen(rim.radius_mm);
-		widen(rim.distance_mm);
-	}
-}
-
 }
 
 Vignetting EstimateVignetting(const Calibration& c)
@@ -350,9 +334,26 @@ Vignetting EstimateVignetting(const Calibration& c)
 			FalloffAnswer& answer = result.answers[FalloffKind(natural, optical)] = fitted.answer;
 			if (answer.rim_seen && answer.rim_sigmas > 0 && (natural || answer.held_out < result.answers[FalloffKind(true, true)].held_out))
 				AddSecondRim(c, data, fitted, answer);
-			WidenByOpening(c.solution.aperture_diameter, answer);
 		}
 	return result;
+}
+
+void WidenRimsByOpening(const Estimate& aperture, Vignetting& told)
+{
+	const double relative = aperture.sigma / aperture.value;
+	const auto widen = [&](Estimate& e) { e.sigma = std::hypot(e.sigma, relative * e.value); };
+	if (!(relative > 0) || !std::isfinite(relative))
+		return;
+	for (FalloffAnswer& answer : told.answers)
+	{
+		widen(answer.radius_mm);
+		widen(answer.distance_mm);
+		for (RimEstimate& rim : answer.rims)
+		{
+			widen(rim.radius_mm);
+			widen(rim.distance_mm);
+		}
+	}
 }
 
 }

@@ -18,6 +18,9 @@ namespace tiltcal
 /// `failure` is filled in where there is too little to see.
 Vignetting EstimateVignetting(const Calibration& calibration);
 
+/// To the sigmas of all rims that of the opening, mm, in units of which light shows them. Once, when that is told.
+void WidenRimsByOpening(const Estimate& aperture, Vignetting& told);
+
 }
 
 #endif

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace tiltcal
 {
@@ -13,7 +14,8 @@ BlurRatios RatiosOf(const Photo& photo)
 {
 	std::vector<double> ratios;
 	for (const Edge& e : photo.edges)
-		ratios.push_back(e.BlurRatio());
+		if (const double ratio = e.BlurRatio(); std::isfinite(ratio))   // an edge of no length has none
+			ratios.push_back(ratio);
 	if (ratios.empty())
 		return {};
 	std::sort(ratios.begin(), ratios.end());

@@ -186,6 +186,17 @@ double BlurFit::Scale(const Unknowns& x) const
 	return RobustSigma(std::move(r));
 }
 
+double BlurFit::LeftOutBy(const Unknowns& x) const
+{
+	std::vector<double> residuals, sigmas;
+	for (const Observation& o : observations)
+	{
+		residuals.push_back(Residual(o, x));
+		sigmas.push_back(o.sigma);
+	}
+	return ModelScatter(residuals, sigmas, 0.01);
+}
+
 LensCovariance BlurFit::Covariance(Unknowns x, double w_sigma_mm) const
 {
 	ceres::Problem problem;

@@ -101,6 +101,9 @@ struct BlurFit
 	/// RobustSigma of the residuals, px.
 	double Scale(const Unknowns& x) const;
 
+	/// What model_sigma should be for these.
+	double LeftOutBy(const Unknowns& x) const;
+
 	/// w is held, and has the standard deviation given. Throws Refused when the fit is singular.
 	LensCovariance Covariance(Unknowns x, double w_sigma_mm) const;
 };

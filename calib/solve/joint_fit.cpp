@@ -191,18 +191,30 @@ void SigmasFromCentres(const ceres::Problem& problem, const ByEdges& by_edges, c
 		}
 }
 
+std::vector<double> Column(const std::vector<std::array<double, 2>>& rows, size_t k)
+{
+	std::vector<double> column;
+	for (const auto& row : rows)
+		column.push_back(row[k]);
+	return column;
 }
 
-ModelError ErrorOf(const std::vector<std::array<double, 2>>& residuals)
+}
+
+ModelError ErrorOf(const Task& task, const std::vector<std::array<double, 2>>& residuals)
 {
-	const auto scale = [&](size_t k)
+	std::vector<double> offset_sigmas, blur_sigmas;
+	ForEachEdge(task, [&](size_t, size_t, const Edge& e)
 	{
-		std::vector<double> r;
-		for (const auto& residual : residuals)
-			r.push_back(residual[k]);
-		return RobustSigma(std::move(r));
-	};
-	return { std::max(scale(0), 0.002), std::max(scale(1), 0.01) };
+		offset_sigmas.push_back(e.offset_sigma);
+		blur_sigmas.push_back(e.blur_sigma);
+	});
+	return { ModelScatter(Column(residuals, 0), offset_sigmas, 0.002), ModelScatter(Column(residuals, 1), blur_sigmas, 0.01) };
+}
+
+EdgeScatter ScatterOf(const std::vector<std::array<double, 2>>& residuals)
+{
+	return { RobustSigma(Column(residuals, 0)), RobustSigma(Column(residuals, 1)) };
 }
 
 std::vector<std::array<double, 2>> JointFit::Residuals(const Geometry& geometry, const Unknowns& x) const

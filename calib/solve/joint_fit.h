@@ -18,14 +18,21 @@
 namespace tiltcal
 {
 
-/// What the model leaves out, common to all edges, px: robust standard deviations of the residuals.
+/// What the model leaves out beside what measuring scatters, common to all edges, px.
 struct ModelError
 {
 	double offset = 0.1, blur = 0.3;
 };
 
-/// Of such residuals as JointFit::Residuals gives.
-ModelError ErrorOf(const std::vector<std::array<double, 2>>& residuals);
+/// Of the residuals of the task's edges as JointFit::Residuals gives them; not none.
+ModelError ErrorOf(const Task& task, const std::vector<std::array<double, 2>>& residuals);
+
+/// Robust standard deviations of residuals, noise and all, px.
+struct EdgeScatter
+{
+	double offset, blur;
+};
+EdgeScatter ScatterOf(const std::vector<std::array<double, 2>>& residuals);
 
 /// Of the edges, taken for independent; and by what the photographs say against each other (solve/by_photographs.h), where they can.
 struct JointCovariance

@@ -32,7 +32,7 @@ const double SIGNIFICANT = 2;
 const int FURTHER_ROUNDS = 3;
 
 /// Whether edges that are built about an answer misfit as much as those that led to it.
-bool IsTrueAbout(const ModelError& before, const ModelError& after) { return after.offset < 1.1 * before.offset && after.blur < 1.1 * before.blur; }
+bool IsTrueAbout(const EdgeScatter& before, const EdgeScatter& after) { return after.offset < 1.1 * before.offset && after.blur < 1.1 * before.blur; }
 
 /// The rims where they were before m changed from `m`, in radii of the opening; their own units move those behind the lens with it.
 void KeepRims(double m, RealLensNumbers& x)
@@ -56,12 +56,12 @@ bool GoRounds(RealLensFit& fit, RealLensNumbers& x, std::vector<RealLensEdge>& e
 		const double m = x.lens[MAGNIFICATION];
 		if (!fit.Minimise(edges, x, !last))
 			return false;
-		const ModelError led = ErrorOf(fit.Residuals(edges, x));
+		const EdgeScatter led = ScatterOf(fit.Residuals(edges, x));
 		if (fit.rims_know_pupils)
 			KeepRims(m, x);
 		edges = fit.EdgesAbout(x);
 		fit.LearnErrors(edges, x);
-		done = last && IsTrueAbout(led, fit.error);
+		done = last && IsTrueAbout(led, fit.scatter);
 	}
 	return done;
 }
@@ -70,8 +70,9 @@ RealLensAnswer AnswerOf(const RealLensFit& fit, const std::vector<RealLensEdge>&
 {
 	RealLensAnswer answer;
 	answer.error = fit.error;
+	answer.scatter = fit.scatter;
 	if (std::any_of(edges.begin(), edges.end(), [](const RealLensEdge& edge) { return edge.shape.has_value(); }))
-		answer.shape_error = fit.shape_error;
+		answer.shape_scatter = fit.shape_scatter;
 	answer.residuals = fit.Residuals(edges, x);
 	answer.judged = judged;
 	answer.numbers = x;
@@ -88,7 +89,7 @@ struct Solved
 	RealLensNumbers x;
 
 	/// Minus the logarithm of the likelihood of places and blurs is their number times that of this, but for a constant.
-	double Misfit() const { return fit.error.offset * fit.error.blur; }
+	double Misfit() const { return fit.scatter.offset * fit.scatter.blur; }
 };
 
 std::optional<Solved> SolveWith(const Task& task, RealLensNumbers x, bool rims_know_pupils)
@@ -233,10 +234,12 @@ std::optional<RealLensAnswer> SolveSceneLens(const Task& task, const Geometry& g
 	// The same units: what this lens leaves out.
 	const RealLensFit before{ task, FEW, fit.error };
 	RealLensNumbers y = six;
-	// In these units it stands a little elsewhere: what is left out is predicted from a minimum.
-	if (before.Minimise(before.EdgesAbout(y), y, false))
-		if (const std::optional<RealLensFit::Judged> of_six = before.Judge(before.EdgesAbout(y), y))
-			answer.held_out_before = of_six->held_out;
+	const std::vector<RealLensEdge> about_six = before.EdgesAbout(y);
+	// In these units it stands a little elsewhere: what is left out is predicted from a minimum, where there is one.
+	if (!before.Minimise(about_six, y, false))
+		y = six;
+	if (const std::optional<RealLensFit::Judged> of_six = before.Judge(about_six, y))
+		answer.held_out_before = of_six->held_out;
 	return answer;
 }
 

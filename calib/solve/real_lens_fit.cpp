@@ -3,6 +3,7 @@
 #include "solve/real_lens_fit.h"
 
 #include "base/robust.h"
+#include "lens/optical_vignetting.h"
 #include "model/thin_lens_of_real.h"
 #include "solve/block_covariance.h"
 #include "solve/by_photographs.h"
@@ -13,6 +14,7 @@
 
 #include <ceres/ceres.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace tiltcal
@@ -53,7 +55,7 @@ struct LikelyMagnification
 struct LikelyByPrior
 {
 	Prior prior;
-	double pitch_mm, r;
+	double pitch_mm, r;   // r: of the opening that f-numbers count, that on the axis, where OPENING is 1
 
 	template<typename T>
 	bool operator()(const T* lens, const T* state, T* residual) const
@@ -75,6 +77,17 @@ struct LikelyByPrior
 		return true;
 	}
 };
+
+/// What rims leave of the opening's diameter on the axis: they grow with it.
+double ShareOnAxis(const RealLensNumbers& x, double pitch_mm)
+{
+	const double m = x.lens[MAGNIFICATION], w = x.states[0][W] * pitch_mm / m, d = 2 * x.r * x.lens[OPENING];
+	const double inverse_focus = PowerOfThinLens(m, x.lens[POWER] / pitch_mm, 1.0, w) - 1 / w;
+	double least = d;
+	for (const tilt_lens::Rim& rim : x.Rims())
+		least = std::min(least, DiameterOnAxis(rim, inverse_focus, w, m));
+	return least / d;
+}
 
 /// The rims start from where a thin lens has them, which is right but for a factor of two or so.
 const double SIGMA_OF_LOG_RIM = 0.7;
@@ -102,7 +115,7 @@ void AddWhatIsLikely(const RealLensFit& fit, RealLensNumbers& x, ceres::Problem&
 	if (x.magnification_free)
 		problem.AddResidualBlock(new ceres::AutoDiffCostFunction<LikelyMagnification, 1, LENS_SIZE>(new LikelyMagnification), nullptr, x.lens.data());
 	for (const Prior& prior : fit.task.priors)
-		problem.AddResidualBlock(new ceres::AutoDiffCostFunction<LikelyByPrior, 1, LENS_SIZE, STATE_SIZE>(new LikelyByPrior{ prior, fit.task.pitch_mm, x.r }), nullptr,
+		problem.AddResidualBlock(new ceres::AutoDiffCostFunction<LikelyByPrior, 1, LENS_SIZE, STATE_SIZE>(new LikelyByPrior{ prior, fit.task.pitch_mm, x.r * ShareOnAxis(x, fit.task.pitch_mm) }), nullptr,
 			x.lens.data(), x.states[0].data());
 	for (int k = 0; x.rims_free && k < RIM_SIZE * int(x.sides.size()); ++k)
 		AddLikely<RIMS_SIZE>(x.rims.data(), k, fit.rims_about[size_t(k)], SIGMA_OF_LOG_RIM, problem);
@@ -117,7 +130,7 @@ void AddLight(const RealLensFit& fit, RealLensNumbers& x, ceres::Problem& proble
 {
 	for (const RealLensExposure& exposure : fit.exposures)
 	{
-		double* const gradient = x.gradients[exposure.lit_alike ? *exposure.photo : 0].data();
+		double* const gradient = x.GradientOf(exposure).data();
 		const ceres::ResidualBlockId id = AddAtStop(new RealLensLightCost(exposure.light), LIGHT_BY_OPENING, nullptr,
 			{ x.states[exposure.state].data(), x.lens.data(), x.c.data(), x.rims.data(), gradient }, exposure.stop, x.stops, problem);
 		if (!exposure.lit_alike)
@@ -224,17 +237,14 @@ std::vector<PhotographBlocks> WithEdges(const std::vector<PhotographBlocks>& pho
 	return part;
 }
 
-Eigen::VectorXd VarianceByParts(ceres::Problem& problem, const std::vector<PhotographBlocks>& photographs, const std::vector<EdgeSubset>& parts, const std::vector<const double*>& blocks, bool& any)
+Eigen::VectorXd VarianceByParts(ceres::Problem& problem, const std::vector<PhotographBlocks>& photographs, const std::vector<EdgeSubset>& parts, const std::vector<const double*>& blocks, int& without_answer)
 {
 	Eigen::VectorXd farthest = Eigen::VectorXd::Zero(Eigen::Index(PlacesOfBlocks(problem, {}).Of(blocks).size()));
-	any = false;
 	for (const EdgeSubset& part : parts)
-		// Too few photographs or edges to tell all numbers apart say nothing against the whole.
 		if (const std::optional<PartsAnswer> alone = AnswerOfPart(problem, photographs, WithEdges(photographs, part), blocks))
-		{
-			any = true;
 			farthest = farthest.cwiseMax(alone->step.cwiseAbs2() - alone->variance);
-		}
+		else
+			++without_answer;
 	return farthest;
 }
 
@@ -247,6 +257,13 @@ std::optional<Eigen::MatrixXd> CovarianceByEdges(ceres::Problem& problem, const 
 	return VarianceOfResiduals(problem) * covariance.Of(blocks);
 }
 
+}
+
+double DiameterOnAxis(const tilt_lens::Rim& rim, double inverse_focus_distance, double w, double m)
+{
+	const Vec3<double> axis{ 0, 0, 1 };
+	const double Z = rim.distance;
+	return 2 * rim.radius / std::abs(Z > 0 ? tilt_lens::ViewOfRim(axis, axis, inverse_focus_distance, Z).scale : tilt_lens::ViewOfRimBehind(axis, axis, axis, w, m, Z).scale);
 }
 
 std::vector<std::array<double, 2>> RealLensFit::Residuals(const std::vector<RealLensEdge>& edges, const RealLensNumbers& x) const
@@ -281,44 +298,54 @@ std::optional<RealLensFit::Judged> RealLensFit::Judge(const std::vector<RealLens
 		judged.by_photographs = jackknife->Of(shared);
 		judged.held_out = jackknife->HeldOut();
 	}
-	judged.variance_by_parts = VarianceByParts(problem, photographs, FourHalvesOfEdges(task), shared, judged.parts_answer);
+	judged.variance_by_parts = VarianceByParts(problem, photographs, FourHalvesOfEdges(task), shared, judged.parts_without_answer);
 	return judged;
 }
 
 double RealLensFit::ErrorOfLight(const RealLensNumbers& x) const
 {
 	const std::vector<RealLensNumbers> at_stops = x.AtEveryStop();
-	std::vector<double> residuals;
+	std::vector<double> residuals, sigmas;
 	for (const RealLensExposure& exposure : exposures)
 	{
 		const RealLensPatches& light = exposure.light;
 		const size_t n = light.patches.size();
 		const RealLensNumbers& own = at_stops[exposure.stop];
-		Eigen::VectorXd r = light.See(x.states[exposure.state].data(), own.lens.data(), x.c.data(), own.rims.data(), x.gradients[exposure.lit_alike ? *exposure.photo : 0].data());
+		Eigen::VectorXd r = light.See(x.states[exposure.state].data(), own.lens.data(), x.c.data(), own.rims.data(), x.GradientOf(exposure).data());
 		for (size_t i = 0; i < n; ++i)
 			r[long(i)] *= light.patches[i].weight;
 		r -= light.basis * (light.basis.transpose() * r);
 		for (size_t i = 0; i < n; ++i)
+		{
 			residuals.push_back(r[long(i)] / light.patches[i].weight);
+			sigmas.push_back(light.patches[i].sigma);
+		}
 	}
-	return residuals.empty() ? 0 : std::max(RobustSigma(std::move(residuals)), 1e-4);
+	return residuals.empty() ? 0 : ModelScatter(residuals, sigmas, 1e-4);
 }
 
 void RealLensFit::LearnErrors(const std::vector<RealLensEdge>& edges, const RealLensNumbers& x)
 {
 	const std::vector<RealLensEdge::Seen> all = SeenOf(*this, edges, x);
 	std::vector<std::array<double, 2>> places_and_blurs;
-	std::array<std::vector<double>, SHAPES> of_shapes;
+	std::array<std::vector<double>, SHAPES> of_shapes, sigmas_of_shapes;
 	for (size_t k = 0; k < all.size(); ++k)
 	{
 		places_and_blurs.push_back({ all[k][0], all[k][1] });
 		for (size_t i = 0; edges[k].shape && i < SHAPES; ++i)
+		{
 			of_shapes[i].push_back(all[k][2 + i]);
+			sigmas_of_shapes[i].push_back(edges[k].shape->sigma[i]);
+		}
 	}
-	error = ErrorOf(places_and_blurs);
+	error = ErrorOf(task, places_and_blurs);
+	scatter = ScatterOf(places_and_blurs);
 	for (size_t i = 0; i < SHAPES; ++i)
 		if (!of_shapes[i].empty())
-			shape_error[i] = std::max(RobustSigma(std::move(of_shapes[i])), 1e-3);
+		{
+			shape_error[i] = ModelScatter(of_shapes[i], sigmas_of_shapes[i], 1e-3);
+			shape_scatter[i] = RobustSigma(std::move(of_shapes[i]));
+		}
 	// The weights of patches say what is projected out: twice.
 	for (int round = 0; round < 2; ++round)
 	{

@@ -30,11 +30,14 @@ struct RealLensNumbers
 	RimSides sides;
 	StopRatios stops;
 	std::vector<std::array<double, 2>> gradients;         ///< of the lighting of the photographs that are lit alike, by their number
+	std::array<double, 2> no_gradient{};                  ///< of the others, held
 	bool rims_free = false;
 	std::array<bool, tilt_lens::AberrationTerms> free{};  ///< which of c the fit may change
 	bool magnification_free = false;
 	bool lens_held = false;                               ///< the lens, its stops and the states' tilts
 
+	std::array<double, 2>& GradientOf(const RealLensExposure& exposure) { return exposure.lit_alike ? gradients[*exposure.photo] : no_gradient; }
+	const std::array<double, 2>& GradientOf(const RealLensExposure& exposure) const { return exposure.lit_alike ? gradients[*exposure.photo] : no_gradient; }
 	/// As a photograph of that stop sees the lens: with its opening, and the rims where they are.
 	RealLensNumbers AtStop(size_t stop) const;
 	std::vector<RealLensNumbers> AtEveryStop() const;
@@ -43,6 +46,9 @@ struct RealLensNumbers
 	Pose& PoseOf(size_t s, size_t p) { return poses[shared_poses ? 0 : s][p]; }
 	const Pose& PoseOf(size_t s, size_t p) const { return poses[shared_poses ? 0 : s][p]; }
 };
+
+/// Diameter of the light from the point in focus on the axis that this rim lets pass, mm at the entrance pupil: of a lens of that focus (1/mm before it), image distance (mm, of its thin lens) and pupil magnification.
+double DiameterOnAxis(const tilt_lens::Rim& rim, double inverse_focus_distance, double w, double pupil_magnification);
 
 /// From the thin lens that was found: its poses, planes, aperture, distortion and field curvature.
 RealLensNumbers StartOfRealLens(const Task& task, const Geometry& geometry, const Solution& thin, const std::vector<tilt_lens::Rim>& rims);
@@ -55,6 +61,9 @@ struct RealLensFit
 	/// Whether the shape of blurs counts, and what the model leaves out of it. Six numbers leave out most of it: fifth-order spherical aberration shows in it first.
 	bool shapes = false;
 	std::array<double, SHAPES> shape_error{ 0.03, 0.03 };
+	/// Of the residuals, noise and all, as LearnErrors found them.
+	EdgeScatter scatter{ 0, 0 };
+	std::array<double, SHAPES> shape_scatter{};
 	double light_error = 0.02;             ///< what the model leaves out of the logarithm of a patch's light
 	std::vector<RealLensExposure> exposures{};
 	/// Rims behind the lens stay where they were told when m changes, by which they tell m a little, which edges tell badly; else the shape that they leave of the opening stays.
@@ -83,7 +92,7 @@ struct RealLensFit
 		/// Of every number what four halves of the edges (solve/half_of_edges.h), each by itself, are apart from the whole, linear about it, squared and less what the half
 		/// scatters itself: the farthest. What the model leaves out is the same in every photograph, by which neither residuals nor photographs scatter.
 		Eigen::VectorXd variance_by_parts;
-		bool parts_answer = false;                   ///< one of them at least
+		int parts_without_answer = 0;                ///< halves too few to tell all numbers apart: they say nothing against the whole
 
 		/// By edges or photographs, the larger.
 		double Variance(int k) const { return std::max(by_edges(k, k), by_photographs ? (*by_photographs)(k, k) : 0); }
@@ -99,7 +108,8 @@ struct RealLensAnswer
 	/// what six numbers leave out of the picture would go into the tilts otherwise.
 	std::optional<RealLensNumbers> about_shared_poses;
 	ModelError error;
-	std::optional<std::array<double, SHAPES>> shape_error;   ///< where shapes counted
+	EdgeScatter scatter{ 0, 0 };
+	std::optional<std::array<double, SHAPES>> shape_scatter;   ///< where shapes counted
 	std::vector<std::array<double, 2>> residuals;   ///< RealLensFit::Residuals
 	RealLensFit::Judged judged;
 	double held_out_before = 0;   ///< of FitSceneLens: of the lens that it began with, in the same units

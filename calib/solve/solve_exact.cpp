@@ -37,7 +37,7 @@ void RefuseTooFewEdges(const Task& task, const std::vector<Observation>& observa
 struct Fitted
 {
 	std::vector<Observation> observations;
-	double model_sigma = 0.5;
+	double model_sigma = 0.5, scatter = 0.5;   // px: what the model leaves out, and noise and all
 	Unknowns x;
 	std::vector<char> by_power;
 };
@@ -50,9 +50,10 @@ void Refine(LensModel model, const Task& task, double w_mm, Fitted& f)
 	{
 		if (!fit.Minimise(f.x, Free::EVERYTHING, 0))
 			throw Refused("the blur fit did not converge");
-		fit.model_sigma = std::max(fit.Scale(f.x), 0.01);
+		fit.model_sigma = fit.LeftOutBy(f.x);
 	}
 	f.model_sigma = fit.model_sigma;
+	f.scatter = std::max(fit.Scale(f.x), 0.01);
 }
 
 /// From nothing: first with a coarse common error, then refined.
@@ -121,7 +122,7 @@ Solution Curve(const Task& task, const Geometry& geometry, const Fitted& plane, 
 }
 
 /// What a difference counts at most in a held-out error: as much for every model.
-double MostOf(const Fitted& plane) { return 5 * plane.model_sigma; }
+double MostOf(const Fitted& plane) { return 5 * plane.scatter; }
 
 }
 

@@ -202,10 +202,10 @@ bool Sigmas(ceres::Problem& problem, Geometry& g)
 	return true;
 }
 
-/// RobustSigma of the coordinates: what the model leaves out, or the noise.
+/// What the model leaves out of the coordinates, px.
 double ModelSigma(const Task& task, const Geometry& g)
 {
-	std::vector<double> r;
+	std::vector<double> r, sigmas;
 	for (size_t s = 0; s < task.states.size(); ++s)
 		for (size_t p = 0; p < task.states[s].photos.size(); ++p)
 			for (const Corner& c : task.states[s].photos[p].corners)
@@ -213,8 +213,9 @@ double ModelSigma(const Task& task, const Geometry& g)
 				const Point at = Reproject(task, g, s, p, c.column, c.row);
 				r.push_back(at[0] - c.x);
 				r.push_back(at[1] - c.y);
+				sigmas.insert(sigmas.end(), 2, c.sigma);
 			}
-	return std::max(RobustSigma(std::move(r)), 1e-4);
+	return ModelScatter(r, sigmas, 1e-4);
 }
 
 /// Holds the principal points that the photographs leave open. True: there are some.

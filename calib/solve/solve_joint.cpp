@@ -60,12 +60,12 @@ bool RefineJointly(const Task& task, Refinement kind, Geometry& geometry, Soluti
 		const auto residuals = fit.Residuals(g, x);
 		if (residuals.empty())   // no edges: nothing to tell the lens by
 			return false;
-		fit.error = ErrorOf(residuals);
+		fit.error = ErrorOf(task, residuals);
 		if (!fit.Minimise(g, x))
 			return false;
 		SetNormals(fit, x, g);
 	}
-	fit.error = ErrorOf(fit.Residuals(g, x));
+	fit.error = ErrorOf(task, fit.Residuals(g, x));
 	const std::optional<JointCovariance> covariance = fit.Covariance(g, x);
 	if (!covariance)
 		return false;
@@ -109,7 +109,7 @@ GeometryAlone TiltFromGeometryAlone(const Task& task, const Geometry& geometry, 
 	JointFit fit{ task, solution.lens, Refinement::EDGES, {}, true };
 	for (int round = 0; round < 2; ++round)
 	{
-		fit.error = ErrorOf(fit.Residuals(g, x));
+		fit.error = ErrorOf(task, fit.Residuals(g, x));
 		if (!fit.Minimise(g, x))
 			return {};
 	}

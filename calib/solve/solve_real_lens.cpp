@@ -3,7 +3,6 @@
 #include "solve/solve_real_lens.h"
 
 #include "base/stopwatch.h"
-#include "lens/optical_vignetting.h"
 #include "model/rims_on_lens.h"
 #include "model/thin_lens_of_real.h"
 #include "model/tilt_angles.h"
@@ -149,8 +148,9 @@ std::vector<RimEstimate> RimsOf(const RealLensAnswer& answer, const std::vector<
 			const int power = rim.distance > 0 ? 0 : number == LOG_RADIUS ? 1 : 2;
 			const double by_edges = RelativeSigma(answer.numbers, answer.judged.by_edges, at + number, power);
 			const double by_photographs = answer.judged.by_photographs ? RelativeSigma(answer.numbers, *answer.judged.by_photographs, at + number, power) : 0;
-			const double opening_by_parts = std::sqrt(answer.judged.variance_by_parts[OPENING]) / answer.numbers.lens[OPENING];
-			return std::hypot(std::max(by_edges, by_photographs), board, opening_by_parts);
+			// As parts of the edges put each of the three apart: by themselves.
+			const double by_parts = RelativeSigma(answer.numbers, answer.judged.variance_by_parts.asDiagonal(), at + number, power);
+			return std::hypot(std::max(by_edges, by_photographs), board, by_parts);
 		};
 		const RimEstimate& held = before[rims.size()];
 		const auto with = [&](double value, double relative, const Estimate& told)
@@ -165,16 +165,11 @@ std::vector<RimEstimate> RimsOf(const RealLensAnswer& answer, const std::vector<
 /// The aperture, or where a rim is narrower for the light from the point in focus on the axis, that rim seen from there.
 Estimate OpeningOnAxis(const RealLens& lens)
 {
-	const Vec3<double> axis{ 0, 0, 1 };
 	const double m = lens.pupil_magnification.value, w = lens.states[0].image_distance_mm.value / m;
 	Estimate least = lens.aperture_diameter_mm;
 	for (const RimEstimate& rim : lens.rims)
-	{
-		const double Z = rim.distance_mm.value;
-		const double scale = Z > 0 ? tilt_lens::ViewOfRim(axis, axis, 1 / lens.states[0].lens.focus_distance.value, Z).scale : tilt_lens::ViewOfRimBehind(axis, axis, axis, w, m, Z).scale;
-		if (const double d = 2 * rim.radius_mm.value / std::abs(scale); d < least.value)
+		if (const double d = DiameterOnAxis({ rim.radius_mm.value, rim.distance_mm.value }, 1 / lens.states[0].lens.focus_distance.value, w, m); d < least.value)
 			least = { d, d * rim.radius_mm.sigma / rim.radius_mm.value };
-	}
 	return least;
 }
 
@@ -210,8 +205,8 @@ RealLens Described(const Task& task, const RealLensAnswer& answer, const std::ve
 		found.aberrations_mm[k] = { x.c[k], sigma[LENS_SIZE + k] };
 	for (size_t s = 0; s < task.states.size(); ++s)
 		found.states.push_back(StateOf(answer, s, task.states[s].photos.size(), task.pitch_mm, sigma, board));
-	// f changes with 1/U alone, by f^2 of it.
-	found.focal_length_mm.sigma = std::hypot(found.focal_length_mm.sigma, board * f * f * found.states[0].lens.q.z);
+	// f changes with 1/U alone: 1/f is 1/w + 1/(m U).
+	found.focal_length_mm.sigma = std::hypot(found.focal_length_mm.sigma, board * f * f * found.states[0].lens.q.z / x.lens[MAGNIFICATION]);
 	found.opening_on_axis_mm = OpeningOnAxis(found);
 	WidenHiddenStop(found);
 	for (const std::array<double, 2>& place_and_blur : answer.residuals)
@@ -219,9 +214,9 @@ RealLens Described(const Task& task, const RealLensAnswer& answer, const std::ve
 		found.place_errors_px.push_back(place_and_blur[0]);
 		found.blur_errors_px.push_back(place_and_blur[1]);
 	}
-	found.rms_place = answer.error.offset;
-	found.rms_blur = answer.error.blur;
-	found.rms_shape = answer.shape_error;
+	found.rms_place = answer.scatter.offset;
+	found.rms_blur = answer.scatter.blur;
+	found.rms_shape = answer.shape_scatter;
 	found.held_out = answer.judged.held_out;
 	return found;
 }
@@ -258,7 +253,7 @@ RealLenses FindRealLens(const Task& task, const Task& through_rims, const Geomet
 		return found;
 	}
 	found.tilts = Described(task, *six, rims);
-	found.fits_without_answer = six->judged.parts_answer ? 0 : 1;
+	found.fits_without_answer = six->judged.parts_without_answer;
 	found.tilts.held_out_thin = HeldOutOf(task, geometry, thin, six->error);
 	found.tilts.seconds = time.Seconds();
 	if (!judge(found.tilts))

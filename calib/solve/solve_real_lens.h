@@ -17,7 +17,7 @@ struct RealLenses
 {
 	RealLens tilts;                  ///< six numbers
 	std::optional<RealLens> scene;   ///< sixteen, and the rims; where it converges. `held_out_thin` of it is that of `tilts` in its own units
-	int fits_without_answer = 0;   ///< 1: no part of the edges tells the numbers of `tilts` apart
+	int fits_without_answer = 0;   ///< of four halves of the edges, those that do not tell the numbers of `tilts` apart
 };
 
 /// One real lens for all states, from the thin lens on; `rims`: what vignettes; `through_rims`: the task with edges as they were measured, while those of `task` are without what rims

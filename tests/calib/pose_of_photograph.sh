@@ -23,3 +23,10 @@ grep -q 'aberrations {' real.inc || { echo "no aberrations in real.inc"; exit 1;
 cmp real.inc asked.inc
 tac "$calibration/camera-$state.inc" >backwards.inc
 near "$(location '	location' real.inc)" "$(location "_Photo_${number}_Location" backwards.inc)"
+
+# The overlay draws the fit that is written: the same crossings, how far off they are through either lens.
+for lens in real thin; do
+	"$tiltcal" pose --$lens-lens --calibration "$calibration/calibration.json" --state "$state" --points points.csv --photo "$photo" --overlay $lens.png --out $lens-photo.inc >/dev/null
+done
+! cmp -s real.png thin.png || { echo "one overlay for two lenses"; exit 1; }
+grep -q 'aberrations {' real-photo.inc && ! grep -q 'aberrations {' thin-photo.inc

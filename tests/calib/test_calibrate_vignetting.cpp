@@ -2,6 +2,7 @@
 //
 // Vignetting recovered from white patches and flat fields of a lens that is known.
 
+#include "calibrate/thin_lens.h"
 #include "measure/bright_patches.h"
 #include <tiltcal/photo.h>
 #include "effects/effects.h"
@@ -323,6 +324,41 @@ TEST(CalibrateVignetting, OfTheTwoAloneTheBetterIsWritten)
 		EXPECT_EQ(Uses(c, EffectId::VIGNETTING_OPTICAL), alone < 0.04) << EffectsText(c);
 		EXPECT_EQ(Uses(c, EffectId::VIGNETTING_NATURAL), alone > 0.04) << EffectsText(c);
 	}
+}
+
+// Of one edge a photograph there is no second answer, through the rims: the first one stays, and it is said.
+TEST(CalibrateVignetting, RimsWithoutAnAnswerLeaveTheFirst)
+{
+	Calibration c = Estimated(synthetic::Shaded(TiltedBothWays(), RIM, 0.005, 1));
+	c.solution.states[0].focus_distance.value = Lens().FocusDistance();
+	ASSERT_TRUE(Uses(c, EffectId::VIGNETTING_OPTICAL));
+	Task measured = c.task;
+	for (State& state : measured.states)
+		for (Photo& photo : state.photos)
+			photo.edges.resize(1);
+	std::vector<std::string> said;
+	CalibrateOptions options;
+	options.log = Log([&said](Severity, const std::string& text) { said.push_back(text); });
+	const Calibration before = c;
+	const Task task = SolveThroughRims(measured, options, c);
+	EXPECT_THAT(said, testing::Contains(testing::HasSubstr("with the rims there is no answer (state ")));
+	EXPECT_EQ(task.states[0].photos[0].edges.size(), before.task.states[0].photos[0].edges.size());
+	EXPECT_EQ(c.solution.w_mm.value, before.solution.w_mm.value);
+	EXPECT_TRUE(Uses(c, EffectId::VIGNETTING_OPTICAL));
+}
+
+// Light shows rims in units of the opening: its 3 % are theirs too, once.
+TEST(CalibrateVignetting, RimsAreNoSurerThanTheOpening)
+{
+	Calibration c = Estimated(synthetic::Shaded(TiltedBothWays(), RIM, 0.005, 1));
+	const FalloffAnswer before = FalloffOf(c);
+	WidenRimsByOpening({ 16, 0.48 }, c.vignetting);
+	const FalloffAnswer& after = FalloffOf(c);
+	EXPECT_NEAR(after.radius_mm.sigma, std::hypot(before.radius_mm.sigma, 0.03 * before.radius_mm.value), 1e-12);
+	EXPECT_NEAR(after.rims[0].distance_mm.sigma, std::hypot(before.rims[0].distance_mm.sigma, 0.03 * before.rims[0].distance_mm.value), 1e-12);
+	// Of an opening that is not known nothing is told.
+	WidenRimsByOpening({ 0, 0 }, c.vignetting);
+	EXPECT_NEAR(after.radius_mm.sigma, std::hypot(before.radius_mm.sigma, 0.03 * before.radius_mm.value), 1e-12);
 }
 
 TEST(CalibrateVignetting, ClippedWhiteIsNotBelieved)

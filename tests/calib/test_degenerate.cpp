@@ -4,7 +4,6 @@
 // verdict that says so; never a confident wrong answer.
 
 #include <tiltcal/calibrate.h>
-#include "model/priors.h"
 #include <tiltcal/error.h>
 #include "support/synthetic_lens.h"
 #include "calibrate/verdict.h"
@@ -122,31 +121,6 @@ TEST(Degenerate, ANoisyLensIsSaidToBe)
 	const Calibration c = Calibrate(TwoStates({}, tilted, { 0.5, 1.5, 2 }, { 0.5, 1.5, 3 }), { Model::PLANE, Poses::AUTO });
 	EXPECT_LT(TiltError(c.solution.states[1], tilted), 4 * c.solution.states[1].lens_tilt.sigma + 4 * c.solution.states[1].tilt_direction.sigma * 0.0873);
 	EXPECT_NE(Judge(c).grade, Grade::GOOD);
-}
-
-TEST(Priors, ReplaceWhatThePhotographsDoNotTell)
-{
-	const Lens tilted = Tilted(5);
-	Task task = MakeTask({ Photograph("untilted", Lens(), { 0.3, 0.06, 2 }, 3), Photograph("tilted", tilted, { 0.3, 0.06, 3 }, 3) });
-	const Calibration free = Calibrate(task, { Model::PLANE, Poses::AUTO });
-	task.priors = { { Quantity::FOCAL_LENGTH, tilted.f, 1e-6 * tilted.f } };
-	const Calibration fixed = Calibrate(task, { Model::PLANE, Poses::AUTO });
-	EXPECT_NEAR(fixed.solution.focal_length.value, tilted.f, 1e-3);
-	EXPECT_LT(fixed.solution.w_mm.sigma, 0.5 * free.solution.w_mm.sigma);
-	EXPECT_LT(std::abs(fixed.solution.w_mm.value - tilted.w), 4 * fixed.solution.w_mm.sigma + 0.01);
-}
-
-TEST(Priors, AreParsed)
-{
-	const Prior fixed = ParseFix("focal_length=45"), known = ParsePrior("f_number=2.8:0.1");
-	EXPECT_EQ(fixed.quantity, Quantity::FOCAL_LENGTH);
-	EXPECT_DOUBLE_EQ(fixed.value, 45);
-	EXPECT_EQ(known.quantity, Quantity::F_NUMBER);
-	EXPECT_DOUBLE_EQ(known.sigma, 0.1);
-	for (const char* const wrong : { "focal_length", "focal_length=", "focal_length=-1", "focal_length=45:1", "length=45", "focal_length=4x" })
-		EXPECT_THROW(ParseFix(wrong), Error) << wrong;
-	for (const char* const wrong : { "f_number=2.8", "f_number=2.8:", "f_number=2.8:0", "f_number=nan:1" })
-		EXPECT_THROW(ParsePrior(wrong), Error) << wrong;
 }
 
 }

@@ -299,7 +299,7 @@ struct Calibration
 	std::vector<StateLens> blur_alone;      ///< the same before the joint refinement: blur, with the geometry held
 	GeometryAlone geometry_alone;
 	std::vector<StateLens> thin_as_it_scatters; ///< of `solution`, where its sigmas hold how far parts of the edges put it apart; else empty
-	int fits_without_answer = 0;            ///< of parts of the edges, or of edges read otherwise, that did not converge: the sigmas do not hold how far those put the lens apart
+	int fits_without_answer = 0;            ///< of parts of the edges, or of edges read otherwise, that had no answer: the sigmas do not hold how far those put the lens apart
 	std::optional<RealLens> real_lens;      ///< where it was asked for, or the thin lens leaves aberrations over
 	/// Sixteen numbers and the rims, from `real_lens` on: what scenes are seen through where it is `used`. Its `held_out_thin` is that of `real_lens`, in its units.
 	std::optional<RealLens> scene_lens;
