@@ -74,7 +74,7 @@ def blocks(plane):
 
 def error(name, truth):
 	"""Blocks of 8 x 8 pixels, the half of them that the map says to be worst, in five parts. A pixel's estimate is unbiased for
-	v(n) ~ n^-1.4; between 1.1 and 1.7, which nets have, the error is 0.86 to 1.29 of it (root of (2^a - 1)/(2^1.4 - 1)). Blocks are
+	v(n) ~ n^-1.4; between 1, of independent samples, and 1.7, which nets have, the error is 1.28 to 0.85 of it (root of (2^1.4 - 1)/(2^a - 1)). Blocks are
 	sorted by what is estimated itself, from some 64 pixels of some six independent numbers: up to 10 % more. Pixels whose samples
 	all missed an edge say nothing: the truth may be larger, by as many as are grazed. Hence a factor 1.5 for each part and the whole."""
 	c, t = read(name), read(truth)

@@ -10,7 +10,7 @@
 options= samples=256 limit=0.007
 case $case in
 	alpha) options=+UA ;;
-	radiosity | photons) samples=64 limit=0.012 ;; # slow ones: four times fewer samples
+	radiosity | photons) samples=64 limit=0.012 ;; # slow ones: four times fewer samples, which see another aperture, not another plane of focus
 esac
 
 picture() {
