@@ -7,7 +7,7 @@
 //   picture_rows join HEIGHT OUT PART...   the parts from the top; together they have HEIGHT rows
 //
 // OUT appears whole or not at all. Exit 0: done, 1: the pictures do not fit, 2: wrong usage, 3: unreadable or unwritable.
-#include "rows_file.h"
+#include "cluster/rows_file.h"
 
 #include <cerrno>
 #include <csignal>

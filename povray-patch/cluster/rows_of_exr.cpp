@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
-#include "rows_file.h"
+#include "cluster/rows_file.h"
 
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>

@@ -55,6 +55,7 @@ endfunction()
 check_folder(povray-patch/lens "lens")
 check_folder(povray-patch/tilt_lens "lens;backend;base")   # the last two are POV-Ray's
 check_folder(povray-patch/tiltcost "lens;tiltcal;base;program;plane_page;tiltcost")
+check_folder(povray-patch/cluster "cluster")
 check_folder(calib/include/tiltcal "tiltcal;lens")
 check_folder(calib/python "tiltcal")
 set(allowed "lens;tiltcal")
