@@ -163,7 +163,13 @@ void WidenByRealLens(Calibration& c)
 {
 	if (!c.real_lens || !c.real_lens->used)
 		return;
+	const double opening = c.real_lens->aperture_diameter_mm.sigma;
 	WidenByEachOther(c.solution, *c.real_lens, c.scene_lens);
+	// The rims of six numbers are as large as the opening is.
+	const double added = std::sqrt(std::max(0., std::pow(c.real_lens->aperture_diameter_mm.sigma, 2) - opening * opening)) / c.real_lens->aperture_diameter_mm.value;
+	for (RimEstimate& rim : c.real_lens->rims)
+		for (Estimate* number : { &rim.radius_mm, &rim.distance_mm })
+			number->sigma = std::hypot(number->sigma, added * number->value);
 	std::vector<const RealLens*> lenses{ &*c.real_lens };
 	if (c.scene_lens && c.scene_lens->used)
 		lenses.push_back(&*c.scene_lens);

@@ -253,7 +253,7 @@ Calibration Solve(const Task& measured, const CalibrateOptions& o)
 	// Last: such a lens is graded by its tilts.
 	WidenByRealLens(c);
 	WidenPlacesByImageDistance(c);
-	WidenRimsByOpening(c.solution.aperture_diameter, c.vignetting);
+	WidenRimsByOpening(c.solution.aperture_diameter, c);
 	return c;
 }
 

@@ -108,6 +108,14 @@ public:
 		return all;
 	}
 
+	/// Of the same, as they were measured.
+	std::vector<double> Sigmas() const
+	{
+		std::vector<double> all;
+		ForEachCorner([&](size_t, size_t, const Corner& c) { all.insert(all.end(), 2, c.sigma); });
+		return all;
+	}
+
 	/// As StateGeometry::photo_rms.
 	double Rms() const
 	{
@@ -176,7 +184,7 @@ BoardCheck CheckBoard(const Task& task, const Geometry& geometry)
 {
 	BoardCheck check;
 	ShapeFit fit(task, geometry);
-	const auto model_sigma = [&] { return std::max(RobustSigma(fit.Residuals()), 1e-4); };
+	const auto model_sigma = [&] { return ModelScatter(fit.Residuals(), fit.Sigmas(), 1e-4); };
 	const double first = model_sigma();
 	if (!fit.Minimise(false, first))
 		return check;

@@ -194,7 +194,7 @@ std::vector<ExpectedSigma> ExpectSigmas(const Calibration& c, const std::vector<
 	{
 		photos.push_back(PhotosOf(c, look));
 		if (photos.back().empty())
-			throw Refused(fmt::format("{}: no edge of the board would be seen", look.text));
+			throw Refused(fmt::format("{}: the board would not lie in the picture, or be blurred or small beyond measuring", look.text));
 	}
 	Design design(c);
 	design.Prepare(photographs, std::move(photos));

@@ -183,14 +183,14 @@ bool PosesAreShared(const Task& task, const std::vector<Vec3<double>>& normals, 
 	}
 	if (o.poses == Poses::SHARED)
 		return true;
-	std::optional<double> own, shared;
-	// Alike: with distortion or, where either cannot tell that too, without.
-	for (const int terms : { 2, 0 })
-		if (!own || !shared)
-		{
-			own = RmsOfPoses(task, normals, terms, false);
-			shared = RmsOfPoses(task, normals, terms, true);
-		}
+	std::optional<double> own = RmsOfPoses(task, normals, 2, false), shared = RmsOfPoses(task, normals, 2, true);
+	// Alike: without distortion where either cannot tell that too; against what poses of their own do at best.
+	if (!own || !shared)
+	{
+		const std::optional<double> without = RmsOfPoses(task, normals, 0, false);
+		own = own && without ? std::min(*own, *without) : without ? without : own;
+		shared = RmsOfPoses(task, normals, 0, true);
+	}
 	if (!own)
 		own = SolveGeometry(task, { 0, normals, false }).rms;   // says why there is none
 	const bool same = shared && *shared < 2 * *own + 0.1;

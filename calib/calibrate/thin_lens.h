@@ -23,7 +23,7 @@ void SolveThinLens(const Task& measured, const std::optional<Model>& model, cons
 
 /// The same once more from what the edges would be without the rims that were found, which cut blurs and move edges, and those rims once more by that lens. Returns the
 /// task with the edges as they are: a real lens sees them through what rims leave. Nothing is changed where the blur of photographs left out is not predicted better so,
-/// or a rim holds back the axis's own light.
+/// there is no answer, or a rim holds back the axis's own light.
 Task SolveThroughRims(const Task& measured, const CalibrateOptions& options, Calibration& c);
 
 }

@@ -123,13 +123,14 @@ private:
 		const double wanted = 0.03, sigma = c.TiltOf(s).lens_tilt.sigma, scatters = c.TiltAsItScatters(s).lens_tilt.sigma;
 		// A larger board is farther away, and its plane of focus less steep.
 		const double by_board = c.task.board.square_sigma_mm / c.task.board.square_mm * std::abs(c.TiltOf(s).lens_tilt.value);
-		const bool by_model = scatters <= wanted, by_size = !by_model && scatters * scatters - by_board * by_board <= wanted * wanted;
+		const bool by_model = scatters <= wanted, by_size = by_board * by_board > 0.5 * sigma * sigma;
 		if (sigma > wanted)
-			Say(sigma > 0.15 ? Grade::POOR : Grade::FAIR, fmt::format("state {}: the tilt is known to {:.2f} degrees only: {}", StateName(s), sigma, by_model && c.RealLensIsUsed()
+			Say(sigma > 0.15 ? Grade::POOR : Grade::FAIR, fmt::format("state {}: the tilt is known to {:.2f} degrees only: {}", StateName(s), sigma, by_size
+				? "the board's size makes most of that: measure its squares better, over many of them"
+				: by_model && c.RealLensIsUsed()
 				? "parts of the edges, or the fifth order, put it apart: more photographs do not tell it better, a smaller aperture does"
 				: by_model
 				? "parts of the edges put it apart, by what a thin lens leaves out of the blur: more photographs do not tell it better, a smaller aperture does"
-				: by_size ? "the board's size makes most of that: measure its squares better, over many of them"
 				: "photograph the board in more poses, inclined so that it is sharp in one part and blurred in another"));
 		if (c.solution.states[s].chosen_by_power)
 			Say(Grade::POOR, fmt::format("state {}: two planes of focus fit the blur, and the one that keeps the focal length was taken: photograph more poses", StateName(s)));

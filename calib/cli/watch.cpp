@@ -120,7 +120,7 @@ private:
 	/// At flat fields that could not be read: once, if nothing else has come.
 	void LookOnceMore()
 	{
-		if (changed)
+		if (changed || photographs_changed)
 			again = Again::NOT;
 		if (again != Again::LATER || std::chrono::steady_clock::now() < look_again)
 			return;
@@ -141,9 +141,10 @@ private:
 			else
 			{
 				Tell(at->first + ": is gone");
-				changed = changed || (at->second.photograph && at->second.unfit.empty());
+				photographs_changed = photographs_changed || (at->second.photograph && at->second.unfit.empty());
 				at = measured.erase(at);
 			}
+		changed = changed || photographs_changed;
 		return changed;
 	}
 
@@ -166,7 +167,7 @@ private:
 			one.picture = Pack(grey);
 			const Stance s = StanceOf(one.photograph->photo);
 			Tell(fmt::format("{}, state {}: {}; the board: {}, {:.0f} % of the picture's width, blur {:.1f} to {:.1f} px", file, state, CountText(one.photograph->photo), StanceWords(s), 100 * s.share_of_width, s.least_blur, s.most_blur));
-			changed = true;
+			photographs_changed = true;
 		}
 		catch (const Error& e)
 		{
@@ -175,7 +176,7 @@ private:
 				one.again = now + ONCE_MORE;
 			if (!second_look || one.why != old->second.why)
 				Tell(fmt::format("skipped: {}", one.why));
-			changed = changed || (old != measured.end() && old->second.photograph);
+			photographs_changed = photographs_changed || (old != measured.end() && old->second.photograph);
 		}
 		measured[file] = std::move(one);
 	}
@@ -234,8 +235,7 @@ private:
 
 	void CalibrateAgain()
 	{
-		changed = false;
-		usable = false;
+		changed = photographs_changed = usable = false;
 		why_not.clear();
 		Assembled now;
 		bool is_writing = false;
@@ -350,7 +350,7 @@ private:
 	void Finish()
 	{
 		notes.on = false;
-		if (changed && usable && field_files.Pending())
+		if (changed && usable && !photographs_changed && field_files.Pending())
 			Tell("a flat field is being written still: the last calibration stands");
 		else if (changed)
 			CalibrateAgain();
@@ -379,7 +379,7 @@ private:
 	std::map<std::string, Measured> measured;
 	std::map<std::string, FileStamp> fields_seen;
 	WatchNotes notes;
-	bool changed = false, usable = false;
+	bool changed = false, photographs_changed = false, usable = false;
 	enum class Again { NOT, LATER, DONE } again = Again::NOT;
 	std::chrono::steady_clock::time_point look_again;
 	std::string why_not;

@@ -47,7 +47,7 @@ struct FalloffFit
 	std::vector<tilt_lens::Rim> rims;   ///< mm; where there are any, they stand instead of the unknown one, and `optical` is false
 	double image_distance = 0;  ///< w, mm
 	bool gradients = true;      ///< else the light is even
-	double model_sigma = 0.02;  ///< what the model leaves out of log_value, common to all patches
+	double model_sigma = 0.02;  ///< robust scatter of log_value, noise and all
 
 	/// Log of the part that the effects leave of a patch's light.
 	double Effects(const FalloffSample& sample, const double* rim) const;

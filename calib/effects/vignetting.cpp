@@ -338,13 +338,13 @@ Vignetting EstimateVignetting(const Calibration& c)
 	return result;
 }
 
-void WidenRimsByOpening(const Estimate& aperture, Vignetting& told)
+void WidenRimsByOpening(const Estimate& aperture, Calibration& told)
 {
 	const double relative = aperture.sigma / aperture.value;
 	const auto widen = [&](Estimate& e) { e.sigma = std::hypot(e.sigma, relative * e.value); };
 	if (!(relative > 0) || !std::isfinite(relative))
 		return;
-	for (FalloffAnswer& answer : told.answers)
+	for (FalloffAnswer& answer : told.vignetting.answers)
 	{
 		widen(answer.radius_mm);
 		widen(answer.distance_mm);
@@ -354,6 +354,10 @@ void WidenRimsByOpening(const Estimate& aperture, Vignetting& told)
 			widen(rim.distance_mm);
 		}
 	}
+	for (Effect& effect : told.effects)
+		for (auto& [name, value] : effect.values)
+			if (effect.id == EffectId::VIGNETTING_OPTICAL && name.find(" mm") != std::string::npos)
+				widen(value);
 }
 
 }

@@ -18,8 +18,8 @@ namespace tiltcal
 /// `failure` is filled in where there is too little to see.
 Vignetting EstimateVignetting(const Calibration& calibration);
 
-/// To the sigmas of all rims that of the opening, mm, in units of which light shows them. Once, when that is told.
-void WidenRimsByOpening(const Estimate& aperture, Vignetting& told);
+/// To the sigmas of all rims, and of what the effects say of them, that of the opening, mm, in units of which light shows them. Once, when that is told.
+void WidenRimsByOpening(const Estimate& aperture, Calibration& told);
 
 }
 

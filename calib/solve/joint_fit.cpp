@@ -191,6 +191,9 @@ void SigmasFromCentres(const ceres::Problem& problem, const ByEdges& by_edges, c
 		}
 }
 
+/// px; of exact edges.
+const double LEAST_OFFSET = 0.002, LEAST_BLUR = 0.01;
+
 std::vector<double> Column(const std::vector<std::array<double, 2>>& rows, size_t k)
 {
 	std::vector<double> column;
@@ -209,12 +212,12 @@ ModelError ErrorOf(const Task& task, const std::vector<std::array<double, 2>>& r
 		offset_sigmas.push_back(e.offset_sigma);
 		blur_sigmas.push_back(e.blur_sigma);
 	});
-	return { ModelScatter(Column(residuals, 0), offset_sigmas, 0.002), ModelScatter(Column(residuals, 1), blur_sigmas, 0.01) };
+	return { ModelScatter(Column(residuals, 0), offset_sigmas, LEAST_OFFSET), ModelScatter(Column(residuals, 1), blur_sigmas, LEAST_BLUR) };
 }
 
 EdgeScatter ScatterOf(const std::vector<std::array<double, 2>>& residuals)
 {
-	return { RobustSigma(Column(residuals, 0)), RobustSigma(Column(residuals, 1)) };
+	return { std::max(RobustSigma(Column(residuals, 0)), LEAST_OFFSET), std::max(RobustSigma(Column(residuals, 1)), LEAST_BLUR) };
 }
 
 std::vector<std::array<double, 2>> JointFit::Residuals(const Geometry& geometry, const Unknowns& x) const

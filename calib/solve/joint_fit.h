@@ -27,7 +27,7 @@ struct ModelError
 /// Of the residuals of the task's edges as JointFit::Residuals gives them; not none.
 ModelError ErrorOf(const Task& task, const std::vector<std::array<double, 2>>& residuals);
 
-/// Robust standard deviations of residuals, noise and all, px.
+/// Robust standard deviations of residuals, noise and all, px; no less than ErrorOf may be.
 struct EdgeScatter
 {
 	double offset, blur;

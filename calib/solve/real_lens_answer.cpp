@@ -235,11 +235,10 @@ std::optional<RealLensAnswer> SolveSceneLens(const Task& task, const Geometry& g
 	const RealLensFit before{ task, FEW, fit.error };
 	RealLensNumbers y = six;
 	const std::vector<RealLensEdge> about_six = before.EdgesAbout(y);
-	// In these units it stands a little elsewhere: what is left out is predicted from a minimum, where there is one.
-	if (!before.Minimise(about_six, y, false))
-		y = six;
-	if (const std::optional<RealLensFit::Judged> of_six = before.Judge(about_six, y))
-		answer.held_out_before = of_six->held_out;
+	// In these units it stands a little elsewhere: what is left out can be predicted from a minimum alone.
+	if (before.Minimise(about_six, y, false))
+		if (const std::optional<RealLensFit::Judged> of_six = before.Judge(about_six, y))
+			answer.held_out_before = of_six->held_out;
 	return answer;
 }
 

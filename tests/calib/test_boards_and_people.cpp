@@ -5,8 +5,10 @@
 #include <tiltcal/calibrate.h>
 #include <tiltcal/error.h>
 #include "calibrate/check_photographs.h"
+#include "calibrate/thin_lens.h"
 #include "calibrate/verdict.h"
 #include "model/pose_difference.h"
+#include "solve/solve_geometry.h"
 #include "report/write_csv.h"
 #include "report/write_json.h"
 #include "support/synthetic_lens.h"
@@ -354,6 +356,21 @@ TEST(BoardsAndPeople, EqualNumbersInOtherPosesDoNotMisleadThePapersModel)
 	const Estimate &own = c.paper.states[1].lens_tilt, &shared = in_order.paper.states[1].lens_tilt;
 	// Own poses, which the model's missing tilt of the picture moves a little, against the untilted ones'.
 	EXPECT_NEAR(own.value, shared.value, 0.5);
+}
+
+// Two far boards, badly measured: with distortion nobody knows w, without it w is just known. Then that says whether the boards stood still.
+TEST(BoardsAndPeople, PosesAreComparedWithoutTheDistortionThatNobodyCanTell)
+{
+	const Task task = Named({ Photograph("untilted", Lens(), { 2.66, 0.06, 2 }, 2, 600), Photograph("tilted", Tilted(5), { 2.66, 0.06, 3 }, 2, 600) });
+	for (const bool shared : { false, true })
+	{
+		ASSERT_FALSE(SolveGeometryIfDetermined(task, { 2, {}, shared }));
+		ASSERT_TRUE(SolveGeometryIfDetermined(task, { 0, {}, shared }));
+	}
+	EXPECT_TRUE(PosesAreShared(task, {}, PLANE));
+	Task moved = task;
+	std::swap(moved.states[1].photos[0], moved.states[1].photos[1]);
+	EXPECT_FALSE(PosesAreShared(moved, {}, PLANE));
 }
 
 // By the components that sigmas are of; at half a turn, where the same rotation is the vector and its opposite, too.

@@ -352,12 +352,15 @@ TEST(CalibrateVignetting, RimsAreNoSurerThanTheOpening)
 {
 	Calibration c = Estimated(synthetic::Shaded(TiltedBothWays(), RIM, 0.005, 1));
 	const FalloffAnswer before = FalloffOf(c);
-	WidenRimsByOpening({ 16, 0.48 }, c.vignetting);
+	WidenRimsByOpening({ 16, 0.48 }, c);
 	const FalloffAnswer& after = FalloffOf(c);
 	EXPECT_NEAR(after.radius_mm.sigma, std::hypot(before.radius_mm.sigma, 0.03 * before.radius_mm.value), 1e-12);
 	EXPECT_NEAR(after.rims[0].distance_mm.sigma, std::hypot(before.rims[0].distance_mm.sigma, 0.03 * before.rims[0].distance_mm.value), 1e-12);
+	for (const Effect& e : c.effects)
+		for (const auto& [name, value] : e.values)
+			EXPECT_TRUE(name != "R mm" || value.sigma == after.radius_mm.sigma) << value.sigma;
 	// Of an opening that is not known nothing is told.
-	WidenRimsByOpening({ 0, 0 }, c.vignetting);
+	WidenRimsByOpening({ 0, 0 }, c);
 	EXPECT_NEAR(after.radius_mm.sigma, std::hypot(before.radius_mm.sigma, 0.03 * before.radius_mm.value), 1e-12);
 }
 

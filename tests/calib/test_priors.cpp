@@ -33,6 +33,9 @@ void ExpectHalfWay(const Estimate& free, int n, const Solve& told)
 	const Estimate between = told(free.value + 3 * free.sigma, free.sigma);
 	EXPECT_NEAR(between.value, free.value + 1.5 * free.sigma, 7 / std::sqrt(n) * free.sigma);
 	EXPECT_NEAR(between.sigma, free.sigma / std::sqrt(2.0), 7 / std::sqrt(n) * free.sigma);
+	// Ten times as much: the sigma is what was told, less a half per cent, and as sure as that scatter is, four times 1.17 / sqrt n.
+	const Estimate held = told(free.value, free.sigma / 10);
+	EXPECT_NEAR(held.sigma, free.sigma / 10 / std::sqrt(1.01), 4.7 / std::sqrt(n) * free.sigma / 10);
 }
 
 // The median of n distances |r| is known to 0.787 sigma / sqrt n, RobustSigma so to 1.17 / sqrt n of itself: of 20000, 0.8 %. Of the square twice that, and that of what is left out is 0.0025 of 0.00395.
@@ -54,6 +57,16 @@ TEST(ModelScatter, IsWhatResidualsHaveBesideTheirSigmas)
 	EXPECT_EQ(ModelScatter({ 0, 0, 0 }, { 0, 0, 0 }, 0.01), 0.01);
 	// Sigmas that say too much leave nothing out.
 	EXPECT_EQ(ModelScatter({ 0.1, -0.1, 0.2 }, { 1, 1, 1 }, 0.01), 0.01);
+	// But of the others: three fifths say twice as much as they scatter, the surer ones have 0.02 beside their 0.004. By n of them 2 * 1.17 / sqrt n of the square; four times that.
+	std::vector<double> residuals, sigmas;
+	const int n = 8000;
+	for (int k = 0; k < 20000; ++k)
+	{
+		const bool sure = k < n;
+		sigmas.push_back(sure ? 0.004 : 0.1);
+		residuals.push_back((sure ? std::hypot(0.004, 0.02) : 0.05) * normal(random));
+	}
+	EXPECT_NEAR(std::pow(ModelScatter(residuals, sigmas, 1e-4), 2), 0.02 * 0.02, 4 * 2 * 1.17 / std::sqrt(n) * (0.02 * 0.02 + 0.004 * 0.004));
 }
 
 TEST(Priors, ReplaceWhatThePhotographsDoNotTell)
