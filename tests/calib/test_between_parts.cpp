@@ -153,6 +153,10 @@ TEST(BetweenParts, TheVerdictSaysWhatMorePhotographsDoNotMend)
 	EXPECT_TRUE(remark("more photographs do not"));
 	c.thin_as_it_scatters[1].lens_tilt.sigma = 0.08;
 	EXPECT_TRUE(remark("photograph the board in more poses"));
+	// Squares known to 2 %: a tilt of 5 degrees to 0.1, which is all of it.
+	c.task.board.square_sigma_mm = 0.02 * c.task.board.square_mm;
+	EXPECT_TRUE(remark("measure its squares better"));
+	c.task.board.square_sigma_mm = 0;
 	c.thin_as_it_scatters.clear();
 	EXPECT_TRUE(remark("photograph the board in more poses"));
 	RealLens lens;
