@@ -20,6 +20,10 @@ def inspect(povray, scene, words, work, may_write):
 	POV-Ray does not render."""
 	if not is_ini(scene) and not os.path.isfile(scene):
 		raise Failure(3, f"{scene}: no such file; it is looked for from {work}")
+	for word in words:
+		if any("\udc80" <= letter <= "\udcff" for letter in word):
+			# POV-Ray itself reads past the end of its tables.
+			raise refused(f"POV-Ray does not render {word}: it reads names as UTF-8, and this is none; rename it. Nothing was submitted")
 	with tempfile.TemporaryDirectory(prefix="povray-strips-") as folder:
 		values = resolve(povray, words, folder)
 		film = frames_of(values)
