@@ -18,6 +18,7 @@
 #include <cstring>
 #include <filesystem>
 #include <limits>
+#include <optional>
 
 namespace tiltcal
 {
@@ -86,6 +87,37 @@ void CheckNesting(const std::string& text, const std::string& file)
 		if (brackets > MOST_NESTED || tags > MOST_NESTED || lead > MOST_NESTED)
 			throw FileError(fmt::format("{}: has lists in lists in lists, {} deep; give the file that OpenCV's calibration sample writes", file, MOST_NESTED));
 	}
+}
+
+/// Where the tag that begins at `at` ends, behind its >; none: nowhere. What is quoted may hold one.
+std::optional<size_t> EndOfTag(const std::string& text, size_t at)
+{
+	if (text.compare(at, 4, "<!--") == 0)
+	{
+		const size_t end = text.find("-->", at + 4);
+		return end == std::string::npos ? std::nullopt : std::optional(end + 3);
+	}
+	char quote = 0;
+	for (size_t i = at; i < text.size(); ++i)
+		if (quote ? text[i] == quote : text[i] == '"' || text[i] == '\'')
+			quote = quote ? 0 : text[i];
+		else if (text[i] == '>' && !quote)
+			return i + 1;
+	return std::nullopt;
+}
+
+/// OpenCV's XML parser reads on where a text ends within a tag.
+void CheckTags(const std::string& text, const std::string& file)
+{
+	size_t last = 0;
+	for (size_t at = 0; (at = text.find('<', last)) != std::string::npos;)
+		if (const std::optional<size_t> end = EndOfTag(text, at))
+			last = *end;
+		else
+			throw FileError(fmt::format("{}: is cut off or damaged: a tag of its XML does not end; copy it again", file));
+	const std::string whole = "</opencv_storage>";
+	if (last < whole.size() || text.compare(last - whole.size(), whole.size(), whole) != 0)
+		throw FileError(fmt::format("{}: is cut off, or not OpenCV's: it does not end with {}", file, whole));
 }
 
 /// For a comment of YAML, where nothing may end the line, and of XML, which has no -- in it.
@@ -253,6 +285,8 @@ StateCamera ReadOpenCv(const std::string& file, double pitch_mm, const std::stri
 	if (text.find('\0') != std::string::npos)
 		throw FileError(fmt::format("{}: is no text: it holds zero bytes", file));
 	CheckNesting(text, file);
+	if (text.find_first_not_of(" \t\n") != std::string::npos && text[text.find_first_not_of(" \t\n")] == '<')
+		CheckTags(text, file);
 	OpenCvCamera c;
 	StateCamera camera;
 	try

@@ -118,6 +118,41 @@ protected:
 	const cv::Matx33d K{ 2400, 0, 900, 0, 2400, 600, 0, 0, 1 };
 };
 
+// A file cut off anywhere: OpenCV 4.6 itself reads on through a null pointer where an XML's text ends within a tag.
+TEST(OpenCvFiles, CutOffAnywhereAreRefusedOrWhole)
+{
+	const TemporaryFolder folder("tiltcal-opencv-cut");
+	const StateCamera c = MakeCamera(5, 30);
+	for (const char* const name : { "camera.xml", "camera.yml" })
+	{
+		const std::string text = OpenCvText(c, name), file = folder.File(name);
+		size_t read = 0;
+		for (size_t length = 0; length <= text.size(); ++length)
+		{
+			std::ofstream(file, std::ios::binary) << text.substr(0, length);
+			double lost = 0;
+			try
+			{
+				EXPECT_EQ(ReadOpenCv(file, c.pitch_mm, "", lost).width, c.width) << length;
+				++read;
+			}
+			catch (const Error& e)
+			{
+				EXPECT_EQ(e.Code(), EXIT_FILE) << e.what();
+			}
+		}
+		EXPECT_GE(read, 1u) << name << ": the whole one";
+		EXPECT_LT(read, text.size() / 2) << name;
+	}
+	// A quote that is missing, and a tag that never ends.
+	for (const char* const damaged : { "<?xml version=", "<?xml version=\"1.0?><opencv_storage></opencv_storage>", "<?xml version=\"1.0\"?><opencv_storage <a></opencv_storage>", "<?xml version=\"1.0\"?><!-- <opencv_storage></opencv_storage>" })
+	{
+		std::ofstream(folder.File("camera.xml"), std::ios::binary) << damaged;
+		double lost = 0;
+		EXPECT_THROW(ReadOpenCv(folder.File("camera.xml"), c.pitch_mm, "", lost), Error) << damaged;
+	}
+}
+
 TEST_F(Import, WithoutTauIsUntilted)
 {
 	Write(K, { -0.1, 0.05, 0, 0, 0.01 });
