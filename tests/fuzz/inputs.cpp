@@ -16,6 +16,7 @@
 
 #include <fstream>
 #include <limits>
+#include <sstream>
 #include <stdexcept>
 
 using namespace tiltcal;
@@ -55,9 +56,15 @@ std::string PointsCsv()
 
 void NeedNumbers(const std::string& what, const std::string& text)
 {
-	for (const char* const word : { "nan", "inf", "1e+30," })
-		if (text.find(word) != std::string::npos)
-			throw std::runtime_error(fmt::format("{} says {}:\n{}", what, word, text));
+	std::istringstream lines(text);
+	for (std::string line; std::getline(lines, line);)
+	{
+		// Remarks have names in them, of which one may be nan.
+		line = line.compare(0, 2, "# ") == 0 ? "" : line.substr(0, line.find("//"));
+		for (const char* const word : { "nan", "inf", "1e+30," })
+			if (line.find(word) != std::string::npos)
+				throw std::runtime_error(fmt::format("{} says {}:\n{}", what, word, text));
+	}
 }
 
 void Pose(const StateCamera& camera, const std::vector<PosePoint>& points, const std::string& file)
