@@ -5,6 +5,7 @@
 
 #include <tiltcal/calibrate.h>
 #include "solve/solve_joint.h"
+#include "support/fewer_edges.h"
 #include "support/synthetic_lens.h"
 
 #include <gtest/gtest.h>
@@ -33,16 +34,7 @@ Task Photographs(const Noise& noise)
 {
 	Noise other = noise;
 	other.seed += 100000;
-	Task task = MakeTask({ Photograph("untilted", TheLens(0), noise, 3), Photograph("tilted", TheLens(5), other, 3) });
-	for (State& state : task.states)
-		for (Photo& photo : state.photos)
-		{
-			std::vector<Edge> some;
-			for (size_t k = 0; k < photo.edges.size(); k += 5)
-				some.push_back(photo.edges[k]);
-			photo.edges = some;
-		}
-	return task;
+	return WithEveryNth(5, MakeTask({ Photograph("untilted", TheLens(0), noise, 3), Photograph("tilted", TheLens(5), other, 3) }));
 }
 
 void AsOften(const std::map<std::string, int>& inside)

@@ -8,6 +8,7 @@
 #include "solve/real_lens_fit.h"
 #include "solve/real_lens_light.h"
 #include "solve/solve_real_lens.h"
+#include "support/fewer_edges.h"
 #include "support/shaded_lens.h"
 #include "support/synthetic_lens.h"
 
@@ -126,15 +127,7 @@ TEST(BesideRealLens, SigmasHoldHowFarTheLensesDisagree)
 /// With a fourth of their edges, for speed.
 Calibration Plain(const std::function<void(Task&)>& change = [](Task&) {})
 {
-	Task task = synthetic::TwoStates(synthetic::Lens(), synthetic::Tilted(5, 30), { 0.03, 0.06, 1 }, { 0.03, 0.06, 2 });
-	for (State& state : task.states)
-		for (Photo& photo : state.photos)
-		{
-			std::vector<Edge> kept;
-			for (size_t k = 0; k < photo.edges.size(); k += 4)
-				kept.push_back(photo.edges[k]);
-			photo.edges = kept;
-		}
+	Task task = synthetic::WithEveryNth(4, synthetic::TwoStates(synthetic::Lens(), synthetic::Tilted(5, 30), { 0.03, 0.06, 1 }, { 0.03, 0.06, 2 }));
 	change(task);
 	return Calibrate(task, { Model::PLANE, Poses::OWN });
 }
