@@ -14,7 +14,7 @@ packages="
 	pkg-config pybind11-dev python3-dev libcairo2-dev fonts-dejavu-core poppler-utils
 	gnuplot-nox povray povray-includes slurm-wlm munge procps xvfb xdotool
 	dpkg-dev file man-db python3-jsonschema python3-openimageio python3-numpy locales vim
-	chromium chromium-driver python3-selenium"
+	chromium chromium-driver python3-selenium valgrind"
 # Wanted, but nothing fails without them (debootstrap: the workflow `package` tests in a clean root).
 optional="ccache debootstrap"
 
@@ -26,16 +26,16 @@ setup.sh knows apt only. Please install by your system's own names:
   Ceres Solver 2.1, Eigen 3, OpenCV 4, CLI11, nlohmann-json, spdlog, fmt,
   pkg-config, cairo, a sans-serif font, poppler's pdftoppm (for a test)
   GoogleTest, Google Benchmark, pugixml, gnuplot
-  povray 3.7 (stock, the tests' oracle) and, for tests, man, the sources of a German locale, Slurm and munge, Xvfb and xdotool, Vim with syntax highlighting, Chromium with its driver,
+  povray 3.7 (stock, the tests' oracle) and, for tests, man, the sources of a German locale, Slurm and munge, Xvfb and xdotool, Vim with syntax highlighting, Chromium with its driver, valgrind,
   Python 3 with jsonschema 4, numpy, OpenImageIO and selenium 4; pybind11 for the Python module; ccache (optional)
   Fedora: gcc-c++ cmake ninja-build patch autoconf automake zlib-devel libpng-devel libjpeg-turbo-devel
           SDL-devel libtiff-devel exiv2-devel openexr-devel boost-devel ceres-solver-devel eigen3-devel opencv-devel cli11-devel
           json-devel spdlog-devel fmt-devel gtest-devel gmock-devel google-benchmark-devel pugixml-devel gnuplot povray ccache
           pkgconf cairo-devel dejavu-sans-fonts poppler-utils pybind11-devel python3-devel python3-jsonschema python3-numpy python3-openimageio
-          chromium chromedriver python3-selenium xorg-x11-server-Xvfb xdotool vim-enhanced
+          chromium chromedriver python3-selenium xorg-x11-server-Xvfb xdotool vim-enhanced valgrind
   Arch:   base-devel cmake ninja sdl12-compat zlib libpng libjpeg-turbo libtiff exiv2 openexr boost ceres-solver eigen opencv
           cli11 nlohmann-json spdlog fmt gtest benchmark pugixml gnuplot povray ccache pkgconf cairo ttf-dejavu poppler
-          pybind11 openimageio python-jsonschema python-numpy chromium python-selenium xorg-server-xvfb xdotool vim
+          pybind11 openimageio python-jsonschema python-numpy chromium python-selenium xorg-server-xvfb xdotool vim valgrind
   (Tried: Debian 12 and 13. The lists for Fedora and Arch are from their indexes of packages and have not been tried.)
   and the POV-Ray 3.7.0.10 source archive: cmake --preset release -DPOVRAY_SOURCE=/path/to/archive
 END

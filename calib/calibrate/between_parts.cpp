@@ -103,9 +103,9 @@ void WidenByParts(const Solution& whole, const std::vector<PartAnswer>& parts, S
 	{
 		Widen(parts, [&](const PartAnswer& part) { return Distance{ number(part.solution).value - number(whole).value, number(part.solution).sigma }; }, number(told).sigma);
 	};
-	widen([](auto& s) -> auto& { return s.w_mm; });
-	widen([](auto& s) -> auto& { return s.focal_length; });
-	widen([](auto& s) -> auto& { return s.aperture_diameter; });
+	for (Estimate Solution::* number : { &Solution::w_mm, &Solution::focal_length, &Solution::aperture_diameter, &Solution::psf_floor_px, &Solution::psf_floor_squared, &Solution::field_curvature,
+		&Solution::tangential_curvature, &Solution::sagittal_curvature })
+		widen([number](auto& s) -> auto& { return s.*number; });
 	for (size_t k = 0; k < told.stop_ratios.size(); ++k)
 		widen([k](auto& s) -> auto& { return s.stop_ratios[k]; });
 	for (size_t k = 0; k < told.states.size(); ++k)
@@ -120,6 +120,9 @@ void WidenByParts(const Solution& whole, const std::vector<PartAnswer>& parts, S
 
 void WidenPlacesByParts(const Geometry& whole, const std::vector<PartAnswer>& parts, Geometry& told)
 {
+	for (size_t k = 0; k < told.distortion.size(); ++k)
+		if (told.distortion_sigma[k] > 0)   // else it is held
+			Widen(parts, [&](const PartAnswer& part) { return Distance{ part.geometry.distortion[k] - whole.distortion[k], part.geometry.distortion_sigma[k] }; }, told.distortion_sigma[k]);
 	for (size_t s = 0; s < told.states.size(); ++s)
 	{
 		StateGeometry& state = told.states[s];

@@ -28,6 +28,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace tiltcal
@@ -77,6 +78,12 @@ void CheckTask(const Task& task)
 			throw UsageError(fmt::format("state {}: no photographs", state.name));
 	if (task.width < 1 || task.height < 1)
 		throw UsageError("the task does not say the photographs' width and height, px");
+	for (const FlatField& flat : task.flat_fields)
+		if (flat.state >= task.states.size())
+			throw UsageError(fmt::format("{}: a flat field of state {}, there are {}, from 0 on", flat.file, flat.state, task.states.size()));
+	for (const Prior& prior : task.priors)
+		if (!(prior.sigma > 0) || !std::isfinite(prior.value))
+			throw UsageError(fmt::format("{}: what is known of it is a number with a sigma above 0, not {} +- {}", prior.Name(), prior.value, prior.sigma));
 	CheckStops(task);
 }
 
@@ -142,11 +149,13 @@ void WidenByParts(const Solution& whole, const std::vector<PartAnswer>& parts, C
 }
 
 /// Sigmas of a thin lens whose photographs are unsharp by themselves.
-void WidenByFloor(const CalibrateOptions& o, Calibration& c)
+void WidenByFloor(Calibration& c)
 {
-	if (c.solution.model == Model::PAPER || !c.refined || o.refinement == Refinement::NONE || !ShapeOfFloorIsSeen(c))
+	if (!c.jointly || !ShapeOfFloorIsSeen(c))
 		return;
 	const Solution whole = c.solution;
+	if (c.thin_as_it_scatters.empty())
+		c.thin_as_it_scatters = whole.states;
 	if (const std::optional<PartAnswer> other = SolveWithGaussianFloor(c))
 		WidenByParts(whole, { *other }, c);
 	else
@@ -156,7 +165,7 @@ void WidenByFloor(const CalibrateOptions& o, Calibration& c)
 /// Sigmas of a thin lens whose photographs misfit by more than noise, in blur or in places.
 void WidenWhereGlassShows(const CalibrateOptions& o, Calibration& c)
 {
-	if (c.solution.model == Model::PAPER || !c.refined || o.refinement == Refinement::NONE || c.RealLensIsUsed() || !MoreThanNoiseIsLeftOver(c))
+	if (!c.jointly || c.RealLensIsUsed() || !MoreThanNoiseIsLeftOver(c))
 		return;
 	o.log.Info("solving parts of the edges: how far they put the lens apart");
 	const Solution whole = c.solution;
@@ -206,7 +215,8 @@ void SolveByPaper(Calibration& c, bool is_wanted, const Log& log)
 {
 	log.Info("solving the lens (paper)");
 	const Stopwatch time;
-	c.paper = SolvePaper(c.task, c.pinhole, c.paper_geometry);
+	// From the places of corners, as the paper has them; the pinhole may be refined by the blur.
+	c.paper = SolvePaper(c.task, SolveGeometry(c.task, { 0, {}, c.pinhole.shared_poses }), c.paper_geometry);
 	c.paper.seconds = time.Seconds();
 	if (!c.paper.failure.empty())
 	{
@@ -246,7 +256,7 @@ Calibration Solve(const Task& measured, const CalibrateOptions& o)
 	if (model != Model::PAPER && c.refined && o.next_photographs)
 		c.next = FindNextPhotographs(c);
 	WidenWhereGlassShows(o, c);
-	WidenByFloor(o, c);
+	WidenByFloor(c);
 	WidenByUnknownPupils(c);
 	WidenTilts(c);
 	c.verdict = Judge(c);
@@ -254,6 +264,7 @@ Calibration Solve(const Task& measured, const CalibrateOptions& o)
 	WidenByRealLens(c);
 	WidenPlacesByImageDistance(c);
 	WidenRimsByOpening(c.solution.aperture_diameter, c);
+	TellWidened(o.effects, c);
 	return c;
 }
 

@@ -2,6 +2,7 @@
 
 #include "calibrate/check_light.h"
 
+#include "calibrate/left_over.h"
 #include "edge/tone_exponent.h"
 #include "model/footprint.h"
 #include "model/predict.h"
@@ -224,7 +225,9 @@ LightCheck CheckLight(const Calibration& c)
 	light.bend = bend;
 	if (!std::isfinite(bend.value))
 		return light;
-	light.exponent = ExponentOf(c, light.bend);
+	// Glass that a thin lens was forced on bends edges too, and no `transfer` mends that.
+	if (c.real_lens || !MoreThanNoiseIsLeftOver(c))
+		light.exponent = ExponentOf(c, light.bend);
 	light.bend_of_states = BendOfStates(state, slopes, weights);
 	return light;
 }
@@ -301,7 +304,7 @@ std::vector<Remark> JudgeLight(const LightCheck& light)
 		const std::string power = !light.exponent ? "" : fmt::format(". As if they were light to the power {:.3f} +- {:.3f}: a `transfer` of {:.2f} in place of srgb, or of what was told over {:.3f}, "
 			"puts that right where the curve is a power", light.exponent->value, light.exponent->sigma, SRGB_GAMMA / light.exponent->value, light.exponent->value);
 		remarks.push_back({ std::abs(light.bend.value) > 5 * BENT ? Grade::POOR : Grade::FAIR, fmt::format("blurred edges lie {:.3f} +- {:.3f} of their blur's radius to the {} side of where the sharp ones "
-			"say: the values are not the light that `transfer` makes of them. A tone curve in the camera does this (and coma, a little), and biases blur and aperture. Develop the raw files with a linear curve, or say the right `transfer`{}",
+			"say: the values are not the light that `transfer` makes of them. A tone curve in the camera does this (and coma and rims that the lens was not given, a little), and biases blur and aperture. Develop the raw files with a linear curve, or say the right `transfer`{}",
 			std::abs(light.bend.value), light.bend.sigma, light.bend.value > 0 ? "bright" : "dark", power) });
 	}
 	return remarks;

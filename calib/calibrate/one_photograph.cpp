@@ -29,18 +29,6 @@ struct Change
 	bool IsSeen() const { return size > allowed; }
 };
 
-double MeanNearness(const Geometry& g)
-{
-	double sum = 0, count = 0;
-	for (const StateGeometry& state : g.states)
-		for (const Pose& pose : state.poses)
-		{
-			sum += 1 / pose[5];
-			++count;
-		}
-	return sum / std::max(count, 1.0);
-}
-
 /// What chance makes of numbers. A photograph that contradicts the others widens the sigmas that hold how photographs scatter, by as much as the
 /// answer moves without it, so that no change would ever be seen: of the edges alone. Where a real lens is the answer, how the thin one scatters is
 /// known to be the glass.
@@ -99,11 +87,28 @@ double Most(const std::vector<Change>& changes)
 
 }
 
+double MeanNearness(const Geometry& g)
+{
+	double sum = 0, count = 0;
+	for (const StateGeometry& state : g.states)
+		for (const Pose& pose : state.poses)
+		{
+			sum += 1 / pose[5];
+			++count;
+		}
+	return sum / std::max(count, 1.0);
+}
+
 std::vector<Remark> JudgeLeftOut(const Calibration& c, size_t s)
 {
 	const std::vector<Photo>& photos = c.task.states[s].photos;
 	if (photos.size() == 1)
 		return { { Grade::FAIR, fmt::format("state {}: one photograph alone cannot be checked against others: photograph at least three poses", c.task.states[s].name) } };
+	const size_t answered = size_t(std::count_if(c.solution.left_out.begin(), c.solution.left_out.end(), [s](const LeftOut& l) { return l.state == s; }));
+	const size_t with_edges = size_t(std::count_if(photos.begin(), photos.end(), [](const Photo& photo) { return !photo.edges.empty(); }));
+	if (answered < with_edges)
+		return { { Grade::FAIR, fmt::format("state {}: without {} of its {} photographs, one left out at a time, there is no answer: what hangs on one of them is not known. Photograph more poses",
+			c.task.states[s].name, with_edges - answered, with_edges) } };
 	const LeftOut* worst = nullptr;
 	std::vector<Change> without;
 	for (const LeftOut& l : c.solution.left_out)

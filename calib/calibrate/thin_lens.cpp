@@ -118,8 +118,16 @@ void Refine(const Task& task, const CalibrateOptions& o, Calibration& c)
 		c.refined = false;
 		o.log.Warn("the joint refinement did not converge; geometry and blur are as solved one after the other");
 	}
-	else if (c.geometry.distortion_terms == 0)
-		c.render = c.solution;
+	else
+	{
+		c.jointly = true;
+		// One camera: places, lens and sigmas of one fit.
+		if (c.geometry.distortion_terms == 0)
+		{
+			c.render = c.solution;
+			c.pinhole = c.geometry;
+		}
+	}
 }
 
 /// What the size of the board adds to the sigmas of places; those of the lens hold it already.
@@ -207,7 +215,7 @@ void SolveThinLens(const Task& measured, const std::optional<Model>& model, cons
 
 Task SolveThroughRims(const Task& measured, const CalibrateOptions& o, Calibration& c)
 {
-	if (WrittenRims(c).empty() || !c.refined || HoldBackTheAxis(RimsOf(WrittenRims(c)), c))
+	if (WrittenRims(c).empty() || !c.jointly || HoldBackTheAxis(RimsOf(WrittenRims(c)), c))
 		return c.task;
 	o.log.Info("solving geometry and lens once more, with the rims that vignette");
 	const Calibration without = c;

@@ -113,12 +113,15 @@ std::vector<Remark> JudgeBoard(const Calibration& c)
 	const BoardCheck& b = c.board_check;
 	const std::string shape = b.known ? ShapeWords(b) : "";
 	const double left = Share(b.rms_free, b.rms_flat);
+	if (!b.known)
+		remarks.push_back({ Grade::FAIR, "whether the board is as it was told could not be checked: with its shape free the corners have no answer. Photograph more poses" });
 	if (!shape.empty() && left < WORTH_SAYING)
 		remarks.push_back({ left < DECIDES ? Grade::POOR : Grade::FAIR, fmt::format("the corners fit to {:.3f} px, and to {:.3f} px if the board is not as it was told: {}. The image distance would change by {:.3f} mm. "
 			"Measure the print in both directions, and glue it to glass", b.rms_flat, b.rms_free, shape, b.w_change) });
 	else if (PlacesAreLeftOver(c))
 		remarks.push_back({ Grade::GOOD, fmt::format("the corners fit to {:.3f} px, their noise is {:.3f} px: places are limited by what {}", c.geometry.rms, NoiseOfPlaces(c.task),
-			c.RealLensIsUsed() ? "a thin lens leaves out of them, and the real lens, whose numbers are told, is to have" : "the camera model leaves out, and the sigmas hold that as far as parts of the edges put the lens apart") });
+			c.RealLensIsUsed() ? "a thin lens leaves out of them, and the real lens, whose numbers are told, is to have"
+			: c.jointly ? "the camera model leaves out, and the sigmas hold that as far as parts of the edges put the lens apart" : "the camera model leaves out, and the sigmas do not hold that") });
 	return remarks;
 }
 
@@ -126,7 +129,9 @@ std::vector<Remark> JudgeUntilted(const Calibration& c)
 {
 	const Estimate& tilt = c.untilted_check.lens_tilt;
 	const double size = std::abs(tilt.value);
-	if (!c.untilted_check.known || c.task.untilted_free || size < SURE * tilt.sigma || size < TILT_SEEN)
+	if (!c.untilted_check.known && !c.task.untilted_free)
+		return { { Grade::FAIR, fmt::format("state {}: whether its lens stands straight could not be checked: with its tilt free the blur has no answer. Photograph more poses of it", c.task.states[0].name) } };
+	if (c.task.untilted_free || size < SURE * tilt.sigma || size < TILT_SEEN)
 		return {};
 	const bool light = SharpeningIsSeen(c.light) || BendIsSeen(c.light);
 	return { { size > TILT_LARGE ? Grade::POOR : Grade::FAIR, fmt::format("state {}: its blur says that the lens is tilted by {:.2f} +- {:.2f} degrees towards {:.0f}, {}", c.task.states[0].name, size, tilt.sigma,

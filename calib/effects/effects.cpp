@@ -31,6 +31,27 @@ double Sigmas(const Estimate& e) { return e.sigma > 0 ? std::abs(e.value) / e.si
 
 double SigmasOfBoth(const std::array<Estimate, 2>& e) { return SigmasOfTwo(std::pow(Sigmas(e[0]), 2) + std::pow(Sigmas(e[1]), 2)); }
 
+using Values = std::vector<std::pair<std::string, Estimate>>;
+
+Values DistortionValues(const Geometry& g)
+{
+	Values values;
+	for (size_t k = 0; k < 5; ++k)
+		if (g.distortion_sigma[k] > 0)
+			values.emplace_back(DISTORTION_NAMES[k], Estimate{ g.distortion[k], g.distortion_sigma[k] });
+	return values;
+}
+
+Values CurvatureValues(const Estimate& C) { return { { "C per mm", C } }; }
+
+double MostSigmas(const Values& values)
+{
+	double most = 0;
+	for (const auto& [name, value] : values)
+		most = std::max(most, Sigmas(value));
+	return most;
+}
+
 Effect DistortionOf(const Calibration& c, const EffectChoice& choice)
 {
 	const Geometry& g = c.MainGeometry();
@@ -44,12 +65,8 @@ Effect DistortionOf(const Calibration& c, const EffectChoice& choice)
 		e.failure = "no coefficient is significant and lowers the reprojection error";
 	if (!e.failure.empty())
 		return e;
-	for (size_t k = 0; k < 5; ++k)
-		if (g.distortion_sigma[k] > 0)
-		{
-			e.values.emplace_back(DISTORTION_NAMES[k], Estimate{ g.distortion[k], g.distortion_sigma[k] });
-			e.sigmas = std::max(e.sigmas, Sigmas(e.values.back().second));
-		}
+	e.values = DistortionValues(g);
+	e.sigmas = MostSigmas(e.values);
 	e.held_out_without = CornersLeftOut(c.task, { 0, LensNormals(g), g.shared_poses });
 	e.held_out_with = CornersLeftOut(c.task, { g.distortion_terms, LensNormals(g), g.shared_poses });
 	return e;
@@ -62,7 +79,7 @@ Effect CurvatureOf(const Calibration& c, const EffectChoice& choice)
 	e.held_out_without = c.compared ? c.compared->plane.held_out_px : 0;
 	e.held_out_with = c.compared ? c.compared->curved.held_out_px : c.solution.model == Model::CURVED ? c.solution.held_out_px : 0;
 	if (c.solution.model == Model::CURVED)
-		e.values.emplace_back("C per mm", c.solution.field_curvature);
+		e.values = CurvatureValues(c.solution.field_curvature);
 	else if (c.solution.model == Model::PAPER)
 		e.failure = "the paper's model has no effects";
 	else if (choice.Excludes(EffectId::FIELD_CURVATURE))
@@ -72,9 +89,8 @@ Effect CurvatureOf(const Calibration& c, const EffectChoice& choice)
 	else if (!c.compared->curved.failure.empty())
 		e.failure = c.compared->curved.failure;
 	else
-		e.values.emplace_back("C per mm", c.compared->curved.field_curvature);
-	if (!e.values.empty())
-		e.sigmas = Sigmas(e.values[0].second);
+		e.values = CurvatureValues(c.compared->curved.field_curvature);
+	e.sigmas = MostSigmas(e.values);
 	return e;
 }
 
@@ -267,6 +283,20 @@ void ChooseEffects(const EffectChoice& choice, Calibration& c)
 	{
 		Decide(choice, e);
 		c.effects.push_back(e);
+	}
+}
+
+void TellWidened(const EffectChoice& choice, Calibration& c)
+{
+	for (Effect& e : c.effects)
+	{
+		const bool curvature = e.id == EffectId::FIELD_CURVATURE;
+		if (!e.used || !(curvature || e.id == EffectId::DISTORTION))
+			continue;
+		e.values = curvature ? CurvatureValues(c.solution.field_curvature) : DistortionValues(c.MainGeometry());
+		e.sigmas = MostSigmas(e.values);
+		if (choice.kind == EffectChoice::AUTO && e.sigmas < SIGNIFICANT && !(curvature && !c.compared))
+			e.why = fmt::format("significant by edges alone, and predicts better; by all that is told {:.1f} sigma", e.sigmas);
 	}
 }
 

@@ -22,6 +22,9 @@ EffectChoice ParseEffects(const std::string& text);
 /// estimated, saying why.
 void ChooseEffects(const EffectChoice& choice, Calibration& calibration);
 
+/// The numbers and sigmas of distortion and field curvature as `calibration` tells them by now, where those are written: sigmas grow after the choice.
+void TellWidened(const EffectChoice& choice, Calibration& calibration);
+
 /// Whether it is written. False for the paper's model.
 bool Uses(const Calibration& calibration, EffectId effect);
 

@@ -31,6 +31,11 @@ TiltAngles Unfold(TiltAngles a, const TiltAngles& near)
 	return a;
 }
 
+TiltAngles AnglesOf(const StateLens& lens)
+{
+	return { lens.lens_tilt.value, lens.focal_plane_tilt.value, lens.tilt_direction.value, lens.focus_distance.value, lens.focal_length.value };
+}
+
 }
 
 Eigen::Vector2d TiltVector(double lens_tilt_deg, double tilt_direction_deg)
@@ -42,7 +47,9 @@ Eigen::Vector2d TiltVector(double lens_tilt_deg, double tilt_direction_deg)
 TiltDifference DifferenceOfTilts(const StateLens& from, const StateLens& to, Estimate StateLens::* angle)
 {
 	const double direction = from.tilt_direction.value;
-	const Eigen::Vector2d apart = TiltVector((to.*angle).value, to.tilt_direction.value) - TiltVector((from.*angle).value, direction);
+	const TiltAngles own = AnglesOf(from), other = Unfold(AnglesOf(to), own);
+	const auto vector = [angle](const TiltAngles& a) { return TiltVector(angle == &StateLens::focal_plane_tilt ? a.focal_plane_tilt : a.lens_tilt, a.tilt_direction); };
+	const Eigen::Vector2d apart = vector(other) - vector(own);
 	return { apart.dot(TiltVector(1, direction)), apart.dot(TiltVector(1, direction + 90)) };
 }
 

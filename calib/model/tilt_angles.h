@@ -23,7 +23,7 @@ struct TiltAngles
 Eigen::Vector2d TiltVector(double lens_tilt_deg, double tilt_direction_deg);
 
 /// From a tilt of `from` to that of `to`, degrees: along the direction of `from`, and aside, 90 degrees on. `angle`: lens_tilt or focal_plane_tilt. By their vectors:
-/// a tilt of -1 degree towards 10 is one of 1 degree towards 190.
+/// a tilt of -1 degree towards 10 is one of 1 degree towards 190; and a plane of focus at 89 degrees is 2 from one at -89.
 struct TiltDifference
 {
 	double along, aside;

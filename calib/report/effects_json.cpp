@@ -110,6 +110,8 @@ Json RealLensJson(const Calibration& c, const RealLens& lens)
 		one["principal_point_sigma_px"] = state.principal_point_sigma;
 		json["states"].push_back(one);
 	}
+	json["covariance"] = CovarianceJson(lens.covariance);
+	json["sigma_by_photographs"] = SigmasByPhotographs(lens.covariance);
 	json["rms_place_px"] = lens.rms_place;
 	json["rms_blur_px"] = lens.rms_blur;
 	if (lens.rms_shape)

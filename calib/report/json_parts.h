@@ -46,6 +46,25 @@ inline Json StopsJson(const std::vector<Stop>& stops, const std::vector<Estimate
 	return list;
 }
 
+/// Each pair once, and every number with itself.
+inline Json CovarianceJson(const NamedCovariance& c)
+{
+	Json json;
+	for (size_t i = 0; i < c.names.size(); ++i)
+		for (size_t j = i; j < c.names.size(); ++j)
+			json[c.names[i]][c.names[j]] = c.matrix[i * c.names.size() + j];
+	return json;
+}
+
+/// Null: too few photographs.
+inline Json SigmasByPhotographs(const NamedCovariance& c)
+{
+	Json json;
+	for (size_t i = 0; i < c.by_photographs.size(); ++i)
+		json[c.names[i]] = c.by_photographs[i];
+	return json;
+}
+
 /// Null for what was not found out.
 inline Json PositiveOrNull(double x) { return std::isfinite(x) && x > 0 ? Json(x) : Json(); }
 

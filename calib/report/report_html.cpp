@@ -146,8 +146,11 @@ std::string Overlays(const Calibration& c, const ReportPictures& pictures)
 }
 
 /// Where the photographs say more of a number's uncertainty than its edges.
-std::string SigmasByPhotographs(const NamedCovariance& c)
+std::string SigmasByPhotographs(const Calibration& calibration)
 {
+	const NamedCovariance& c = calibration.solution.covariance;
+	if (!calibration.jointly)
+		return "Geometry and blur were not refined together: these are the edges' own sigmas, of the blur with the places held. ";
 	if (c.by_photographs.empty())
 		return "There are too few photographs to judge them by what they say against each other. ";
 	double most = 0;
@@ -178,7 +181,7 @@ std::string Fine(const Calibration& c)
 		: "<p>Correlations of the estimates (q is the inverse-focus vector; its x and y are the tilt). Above some 0.97 two numbers can hardly be told apart.</p>\n" + correlations;
 	out += "<h3>Priors</h3>\n" + PriorsTable(c);
 	out += "<h3>What the sigmas hold</h3>\n<p>They come from the covariance of the fit, rescaled by its residuals: the noise of the measured corners and edges, and as much of the model's error as scatters like noise. "
-		+ SigmasByPhotographs(c.solution.covariance) +
+		+ SigmasByPhotographs(c) +
 		"Where another answer of this calibration (of a part of the edges, of the other lens) lies farther off, they hold that. " + BoardInSigmas(c.task.board) +
 		"They do not hold an error of the pitch, nor an aberration that none of these answers has. "
 		"The table of what leaving a photograph out changes, and the maps above, are the check.</p>\n";

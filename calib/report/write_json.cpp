@@ -179,16 +179,6 @@ Json BoardCheckJson(const BoardCheck& b)
 	return json;
 }
 
-/// Each pair once, and every number with itself.
-Json CovarianceJson(const NamedCovariance& c)
-{
-	Json json;
-	for (size_t i = 0; i < c.names.size(); ++i)
-		for (size_t j = i; j < c.names.size(); ++j)
-			json[c.names[i]][c.names[j]] = c.matrix[i * c.names.size() + j];
-	return json;
-}
-
 /// The tilts are the real lens's, where that is the answer; what the thin lens has in their place stays beside them, for all else is of one camera with it.
 void PutAnswer(const Calibration& c, Json& json)
 {
@@ -202,15 +192,6 @@ void PutAnswer(const Calibration& c, Json& json)
 		PutTilt(state["thin"], c.solution.states[s]);
 		PutTilt(state, c.TiltOf(s));
 	}
-}
-
-/// Null: too few photographs.
-Json SigmasByPhotographs(const NamedCovariance& c)
-{
-	Json json;
-	for (size_t i = 0; i < c.by_photographs.size(); ++i)
-		json[c.names[i]] = c.by_photographs[i];
-	return json;
 }
 
 Json VerdictJson(const Verdict& verdict)

@@ -42,6 +42,7 @@ HeldOut HoldOut(const BlurFit& fit, const Unknowns& x, double most)
 		photos[o.state].insert(o.photo);
 	double sum = 0;
 	size_t count = 0;
+	bool all = true;
 	for (const auto& [state, numbers] : photos)
 		for (const size_t photo : numbers)
 		{
@@ -53,7 +54,10 @@ HeldOut HoldOut(const BlurFit& fit, const Unknowns& x, double most)
 			const BlurFit reduced{ fit.model, others, fit.w_mm, fit.model_sigma, fit.priors, fit.stops };
 			Unknowns y = x;
 			if (!reduced.Minimise(y, Free::EVERYTHING, 0))
-				return { HUGE_VAL, {} };
+			{
+				all = false;
+				continue;
+			}
 			double squares = 0;
 			for (const Observation& o : own)
 				squares += std::pow(std::min(std::abs(fit.Residual(o, y)), most), 2);
@@ -61,7 +65,7 @@ HeldOut HoldOut(const BlurFit& fit, const Unknowns& x, double most)
 			count += own.size();
 			result.photos.push_back({ state, photo, TiltChange(fit, x, y, state), std::abs(std::abs(y.d) - std::abs(x.d)), std::abs(fit.Plane(y, 0).z - fit.Plane(x, 0).z), std::sqrt(squares / double(own.size())) });
 		}
-	result.rms = count ? std::sqrt(sum / double(count)) : 0;
+	result.rms = all && count ? std::sqrt(sum / double(count)) : 0;
 	return result;
 }
 

@@ -13,8 +13,8 @@ namespace tiltcal
 
 struct HeldOut
 {
-	double rms = 0;                 ///< over all photographs left out, px; 0 where no state has two, infinite without convergence
-	std::vector<LeftOut> photos;
+	double rms = 0;                 ///< over all photographs left out, px; 0 where no state has two, or where without one there is no answer
+	std::vector<LeftOut> photos;    ///< those without which there is one
 };
 
 /// Each photograph in turn is left out, the blur is fitted to the others from x on, and its own edges are

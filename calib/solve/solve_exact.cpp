@@ -2,6 +2,7 @@
 
 #include "solve/solve_lens.h"
 
+#include "base/if_answered.h"
 #include "base/stopwatch.h"
 
 #include "model/lens_model.h"
@@ -112,12 +113,23 @@ Solution Curve(const Task& task, const Geometry& geometry, const Fitted& plane, 
 	const double w_mm = geometry.w_px * task.pitch_mm;
 	Fitted one = plane;
 	Refine(LensModel::BOWL, task, w_mm, one);
-	Fitted two = one;
-	Refine(LensModel::BOWLS, task, w_mm, two);
-	const HeldOut of_one = LeaveOut(LensModel::BOWL, task, geometry, one, most), of_two = LeaveOut(LensModel::BOWLS, task, geometry, two, most);
-	const bool apart = of_two.rms < WORTH_IT * of_one.rms;
-	Solution solution = apart ? SolutionOf(LensModel::BOWLS, Model::CURVED, task, geometry, two) : SolutionOf(LensModel::BOWL, Model::CURVED, task, geometry, one);
-	Keep(apart ? of_two : of_one, solution);
+	const HeldOut of_one = LeaveOut(LensModel::BOWL, task, geometry, one, most);
+	const auto astigmatic = [&]() -> std::optional<Solution>
+	{
+		Fitted two = one;
+		Refine(LensModel::BOWLS, task, w_mm, two);
+		const HeldOut of_two = LeaveOut(LensModel::BOWLS, task, geometry, two, most);
+		if (!(of_two.rms > 0 && of_two.rms < WORTH_IT * of_one.rms))
+			return std::nullopt;
+		Solution solution = SolutionOf(LensModel::BOWLS, Model::CURVED, task, geometry, two);
+		Keep(of_two, solution);
+		return solution;
+	};
+	// The bowl is an answer where two have none.
+	if (const std::optional<std::optional<Solution>> two = IfAnswered(astigmatic); two && *two)
+		return **two;
+	Solution solution = SolutionOf(LensModel::BOWL, Model::CURVED, task, geometry, one);
+	Keep(of_one, solution);
 	return solution;
 }
 
@@ -157,22 +169,12 @@ ModelComparison CompareExact(const Task& task, const Geometry& geometry)
 	const double most = MostOf(plane);
 	const auto or_failure = [](Model model, auto solve)
 	{
-		try
-		{
-			const Stopwatch time;
-			Solution s = solve();
-			s.seconds = time.Seconds();
-			return s;
-		}
-		catch (const Error& e)
-		{
-			if (e.Code() != EXIT_REFUSED)
-				throw;
-			Solution none;
-			none.model = model;
-			none.failure = e.what();
-			return none;
-		}
+		const Stopwatch time;
+		Solution none;
+		none.model = model;
+		Solution s = IfAnswered(solve, &none.failure).value_or(none);
+		s.seconds = s.failure.empty() ? time.Seconds() : 0;
+		return s;
 	};
 	ModelComparison all;
 	all.rigid = or_failure(Model::RIGID, [&] { return LeavingOut(LensModel::RIGID, Model::RIGID, task, geometry, FitFromNothing(LensModel::RIGID, task, geometry), most); });

@@ -7,6 +7,7 @@
 
 #include "model/projection.h"
 #include <tiltcal/error.h>
+#include "base/if_answered.h"
 #include "base/robust.h"
 
 #include <ceres/ceres.h>
@@ -342,16 +343,7 @@ Geometry SolveGeometry(const Task& task, const GeometryOptions& options)
 
 std::optional<Geometry> SolveGeometryIfDetermined(const Task& task, const GeometryOptions& options)
 {
-	try
-	{
-		return SolveGeometry(task, options);
-	}
-	catch (const Error& e)
-	{
-		if (e.Code() != EXIT_REFUSED)
-			throw;
-		return std::nullopt;
-	}
+	return IfAnswered([&] { return SolveGeometry(task, options); });
 }
 
 Geometry SelectGeometry(const Task& task, GeometryOptions options)

@@ -51,16 +51,16 @@ Unknowns UnknownsOf(const Solution& s)
 
 bool RefineJointly(const Task& task, Refinement kind, Geometry& geometry, Solution& solution)
 {
+	for (const State& state : task.states)
+		if (std::all_of(state.photos.begin(), state.photos.end(), [](const Photo& photo) { return photo.edges.empty(); }))
+			return false;   // nothing to tell its lens by
 	Geometry g = geometry;
 	Unknowns x = UnknownsOf(solution);
 	x.untilted_free = task.untilted_free;
 	JointFit fit{ task, solution.lens, kind, {}, false };
 	for (int round = 0; round < 2; ++round)
 	{
-		const auto residuals = fit.Residuals(g, x);
-		if (residuals.empty())   // no edges: nothing to tell the lens by
-			return false;
-		fit.error = ErrorOf(task, residuals);
+		fit.error = ErrorOf(task, fit.Residuals(g, x));
 		if (!fit.Minimise(g, x))
 			return false;
 		SetNormals(fit, x, g);

@@ -7,6 +7,7 @@
 #include "model/thin_lens_of_real.h"
 #include "model/tilt_angles.h"
 #include "solve/fill_solution.h"
+#include "solve/real_lens_covariance.h"
 #include "solve/real_lens_fit.h"
 #include "solve/solve_joint.h"
 
@@ -23,9 +24,6 @@ namespace
 {
 
 using namespace real_lens;
-
-/// Where a state's numbers begin among those of RealLensFit::Judged.
-int PlaceOfState(size_t s) { return LENS_SIZE + tilt_lens::AberrationTerms + RIMS_SIZE + STATE_SIZE * int(s); }
 
 /// q (1/mm) and image distance (mm) of the thin lens that does near its axis what this one does.
 Eigen::Vector4d ThinLensOf(const Eigen::VectorXd& state, const Eigen::VectorXd& lens, double pitch_mm)
@@ -218,6 +216,7 @@ RealLens Described(const Task& task, const RealLensAnswer& answer, const std::ve
 	found.rms_blur = answer.scatter.blur;
 	found.rms_shape = answer.shape_scatter;
 	found.held_out = answer.judged.held_out;
+	found.covariance = CovarianceOfRealLens(task, answer);
 	return found;
 }
 

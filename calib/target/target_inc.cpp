@@ -38,7 +38,7 @@ std::string TargetInc(const TargetPage& page)
 		"// Frame: mm, origin at the first {}, x along the columns, y up the rows, z into the board.\n"
 		"// Radiance is exact: it emits, and takes no light. Use: object {{ TiltCal_Target }}\n\n"
 		"#ifndef (TiltCal_Target_Black)\n\t#declare TiltCal_Target_Black = 0;   // linear light\n#end\n"
-		"#ifndef (TiltCal_Target_White)\n\t#declare TiltCal_Target_White = 1;\n#end\n",
+		"#ifndef (TiltCal_Target_White)\n\t#declare TiltCal_Target_White = 0.8;   // as paper; at 1 a picture clips it\n#end\n",
 		TILTCAL_VERSION, Describe(t), page.paper, t.IsCheckerboard() ? "inner corner" : "circle's centre");
 	out += Number("Columns", t.columns, t.IsCheckerboard() ? "squares" : "circles");
 	out += Number("Rows", t.rows, t.IsCheckerboard() ? "squares" : "circles");

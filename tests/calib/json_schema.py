@@ -19,7 +19,7 @@ OPTIONAL = {
     "thin_model", "states/0/thin", "next_photographs", "stops", "render/stops", "real_lens/stops", "scene_lens/stops", "scene_lens/rms_asymmetry", "scene_lens/rms_hollowness", "states/0/photos/0/f_number", "render/states/0/photos/0/f_number",
 }
 # Objects whose keys are names, each of which may be missing.
-MAPS = re.compile(r"^(priors|held_out_blur_px|correlations(/.*)?|covariance(/.*)?|sigma_by_photographs|tilt_told_by/(blur|geometry)_alone)$")
+MAPS = re.compile(r"^(priors|held_out_blur_px|correlations(/.*)?|((real|scene)_lens/)?(covariance(/.*)?|sigma_by_photographs)|tilt_told_by/(blur|geometry)_alone)$")
 # Lists of two entries at least, which are not shortened to one.
 PAIRS = ("stops",)
 # Lists of words, of any length.
@@ -81,7 +81,7 @@ def mutants_of(whole):
             at(copy, path[:-1])[path[-1]] = "text" if isinstance(value, (dict, list)) else {}
             yield f"{name}: of another type", copy
             parent = "/".join(map(str, path[:-1]))
-            is_map = MAPS.match(parent) and not str(path[-1]).startswith("pupil_magnification")
+            is_map = MAPS.match(parent) and not (parent.startswith("tilt_told_by") and str(path[-1]).startswith("pupil_magnification"))
             if name not in OPTIONAL and not is_map and not WORDS.match(parent):
                 copy = json.loads(json.dumps(whole))
                 del at(copy, path[:-1])[path[-1]]

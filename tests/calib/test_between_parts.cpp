@@ -24,6 +24,7 @@ Solution Told()
 	s.focal_length = { 45, 0.01 };
 	s.aperture_diameter = { 16, 0.1 };
 	s.focus_distance = { 600, 2 };
+	s.field_curvature = { -3e-4, 1e-4 };
 	s.states.resize(2);
 	s.states[0].q = { 0, 0, 1 / 600.0 };
 	s.states[0].q_sigma = { 0, 0, 2 / (600.0 * 600) };
@@ -45,6 +46,7 @@ TEST(BetweenParts, SigmasHoldHowFarPartsDisagree)
 	outer.solution.w_mm = { 47.9, 0.01 };
 	// Within what it scatters: nothing is added.
 	inner.solution.aperture_diameter = { 16.2, 0.5 };
+	inner.solution.field_curvature = { -6e-4, 0 };
 	// The same tilt told the other way round, 0.1 degrees more.
 	inner.solution.states[1].lens_tilt = { -5.1, 0.06 };
 	inner.solution.states[1].tilt_direction = { 180, 0.1 };
@@ -59,6 +61,7 @@ TEST(BetweenParts, SigmasHoldHowFarPartsDisagree)
 	EXPECT_NEAR(told.w_mm.sigma, std::sqrt(0.03 * 0.03 + 0.4 * 0.4 - 0.3 * 0.3), 1e-9);
 	EXPECT_NEAR(told.aperture_diameter.sigma, 0.1, 1e-12);
 	EXPECT_NEAR(told.focal_length.sigma, 0.01, 1e-12);
+	EXPECT_NEAR(told.field_curvature.sigma, std::hypot(1e-4, 3e-4), 1e-12);
 	EXPECT_NEAR(told.states[1].lens_tilt.sigma, std::sqrt(0.02 * 0.02 + 0.1 * 0.1 - 0.06 * 0.06), 1e-6);
 	// An arc of one degree and its sine differ by 5e-5 of it.
 	EXPECT_NEAR(told.states[1].tilt_direction.sigma, std::sqrt(0.1 * 0.1 + 1 - 0.2 * 0.2), 1e-3);
@@ -82,6 +85,9 @@ TEST(BetweenParts, PlacesAreToldAsTheLensIs)
 	own.pose_sigmas = { { 1e-4, 1e-4, 1e-4, 0.1, 0.1, 0.3 } };
 	own.principal_point_sigma = { 0.3, 0.4 };
 	own.lens_centre_sigma = { 0, 0, 0.1 };
+	whole.distortion_terms = 1;
+	whole.distortion = { 0.004 };
+	whole.distortion_sigma = { 3e-4 };
 	PartAnswer part{ whole, Told() };
 	part.geometry.states[0].poses = { { 0, 0, -M_PI + 0.01, 10, 20, 600.5 } };
 	part.geometry.states[0].pose_sigmas = { { 0, 0, 0, 0, 0, 0.4 } };
@@ -89,6 +95,7 @@ TEST(BetweenParts, PlacesAreToldAsTheLensIs)
 	part.geometry.states[0].principal_point_sigma = { 0.3, 0 };
 	part.geometry.states[0].lens_centre.z = 0.2;
 	part.geometry.states[0].lens_centre_sigma.z = 0;
+	part.geometry.distortion = { 0.008 };
 	Geometry told = whole;
 	WidenPlacesByParts(whole, { part }, told);
 	const StateGeometry& wide = told.states[0];
@@ -98,6 +105,8 @@ TEST(BetweenParts, PlacesAreToldAsTheLensIs)
 	EXPECT_NEAR(wide.principal_point_sigma[0], std::sqrt(0.09 + 0.36 - 0.09), 1e-12);
 	EXPECT_NEAR(wide.principal_point_sigma[1], 0.4, 1e-12);
 	EXPECT_NEAR(wide.lens_centre_sigma.z, std::hypot(0.1, 0.2), 1e-12);
+	EXPECT_NEAR(told.distortion_sigma[0], std::hypot(3e-4, 0.004 - 0), 1e-4) << "3e-4 of the part's own scatter";
+	EXPECT_EQ(told.distortion_sigma[1], 0) << "held";
 }
 
 // Parts of what one thin lens made agree with the whole: they differ by less than they scatter themselves. Of twelve numbers one is beyond

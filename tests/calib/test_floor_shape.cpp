@@ -104,6 +104,7 @@ TEST(FloorShape, SigmasHoldTheOpenShapeWherePhotographsAreUnsharp)
 	Task task = synthetic::TwoStates(lens, synthetic::Tilted(5, 30), { 0.03, 0.06, 1 }, { 0.03, 0.06, 2 });
 	const Calibration sharp = Calibrate(task, options);
 	EXPECT_FALSE(ShapeOfFloorIsSeen(sharp));
+	EXPECT_EQ(sharp.TiltLeftOutByModel(1), 0);
 	for (State& state : task.states)
 		for (Photo& photo : state.photos)
 			for (Edge& edge : photo.edges)
@@ -114,6 +115,7 @@ TEST(FloorShape, SigmasHoldTheOpenShapeWherePhotographsAreUnsharp)
 	ASSERT_TRUE(other);
 	const double apart = std::abs(other->solution.aperture_diameter.value - unsharp.solution.aperture_diameter.value);
 	EXPECT_GT(unsharp.solution.aperture_diameter.sigma, 0.99 * apart / std::sqrt(3.0));
+	EXPECT_GT(unsharp.TiltLeftOutByModel(1), 0) << "no scatter, which further photographs would mend";
 	EXPECT_GT(unsharp.solution.aperture_diameter.sigma, sharp.solution.aperture_diameter.sigma);
 	EXPECT_NEAR(unsharp.solution.aperture_diameter.value, lens.d, 3 * unsharp.solution.aperture_diameter.sigma);
 }

@@ -5,6 +5,7 @@
 #include "calibrate/beside_real_lens.h"
 #include "edge/soft_radius.h"
 #include "model/thin_lens_of_real.h"
+#include "solve/real_lens_covariance.h"
 #include "solve/real_lens_fit.h"
 #include "solve/real_lens_light.h"
 #include "solve/solve_real_lens.h"
@@ -300,6 +301,29 @@ TEST(RealLens, GlassWithoutAberrationsHasNone)
 	EXPECT_NEAR(x.lens[real_lens::MAGNIFICATION], truth.lens[real_lens::MAGNIFICATION], 4 * std::sqrt(v(real_lens::MAGNIFICATION, real_lens::MAGNIFICATION)));
 	for (const int k : { real_lens::NX, real_lens::NY })
 		EXPECT_NEAR(x.states[1][size_t(k)], truth.states[1][size_t(k)], 4 * std::sqrt(v(state + k, state + k)));
+
+	// What of it calibration.json has: the names' units, nothing of the fifth order, and a covariance.
+	const NamedCovariance told = CovarianceOfRealLens(c.task, *answer);
+	const size_t n = told.names.size();
+	// The untilted state's normal is held.
+	ASSERT_EQ(n, 4 + tilt_lens::ThirdOrderTerms + 3 + 5u);
+	ASSERT_EQ(told.matrix.size(), n * n);
+	ASSERT_EQ(told.by_photographs.size(), n);
+	EXPECT_EQ(told.names[0], "focal_length_mm");
+	EXPECT_EQ(told.names[n - 5], c.task.states[1].name + ".normal_x");
+	const auto focal_length = [&](double power) { return c.task.pitch_mm / power; };
+	const double power = x.lens[real_lens::POWER], step = std::sqrt(v(real_lens::POWER, real_lens::POWER));
+	// A sigma of f is some thousandths of it, and the next order of the difference their square.
+	EXPECT_NEAR(std::sqrt(told.matrix[0]) / (0.5 * (focal_length(power - step) - focal_length(power + step))), 1, 1e-4);
+	EXPECT_NEAR(told.matrix[(n - 5) * (n + 1)], v(state, state), 1e-12 * v(state, state));
+	for (size_t i = 0; i < n; ++i)
+		for (size_t j = 0; j < n; ++j)
+		{
+			// Rounding of a decomposition, some thousand times a double's.
+			const double most = std::sqrt(told.matrix[i * (n + 1)] * told.matrix[j * (n + 1)]), rounding = 1e-9;
+			EXPECT_NEAR(told.matrix[i * n + j], told.matrix[j * n + i], rounding * most);
+			EXPECT_LE(std::abs(told.matrix[i * n + j]), most * (1 + rounding)) << told.names[i] << " " << told.names[j];
+		}
 }
 
 // The aperture told a fifth too small, and a rim close before it that is smaller still: the blur wants the rim as large as the lens, so both must grow. The 18 points that

@@ -50,6 +50,27 @@ TEST(TiltAngles, SigmaDoesNotJumpAtTheFold)
 	EXPECT_NEAR(lens.tilt_direction.sigma, 1e-6 / std::hypot(lens.q.x, lens.q.y) / RAD, 1e-3);
 }
 
+TEST(TiltAngles, PlanesOnBothSidesOfParallelToTheAxisAreNeighbours)
+{
+	// Of one lens tilt, focused on both sides of infinity.
+	const auto at = [](double qz)
+	{
+		const TiltAngles a = AnglesFromPlane({ 0, -0.0018, qz }, 48);
+		StateLens lens;
+		lens.lens_tilt.value = a.lens_tilt;
+		lens.focal_plane_tilt.value = a.focal_plane_tilt;
+		lens.tilt_direction.value = a.tilt_direction;
+		return lens;
+	};
+	const StateLens before = at(3e-5), beyond = at(-2e-5);
+	ASSERT_GT(before.focal_plane_tilt.value, 89);
+	ASSERT_LT(beyond.focal_plane_tilt.value, -89);
+	// The angles between the planes: of 3 and 2 in 180.
+	const double apart = (std::atan(3e-5 / 0.0018) + std::atan(2e-5 / 0.0018)) / RAD;
+	EXPECT_NEAR(std::abs(DifferenceOfTilts(before, beyond, &StateLens::focal_plane_tilt).along), apart, 1e-9);
+	EXPECT_LT(std::abs(DifferenceOfTilts(before, beyond, &StateLens::lens_tilt).along), 0.1);
+}
+
 TEST(TiltAngles, SigmaIsPropagated)
 {
 	// Untilted about x, q_y uncertain by s: the tilt is uncertain by s / (1/U + 1/w).

@@ -47,9 +47,10 @@ exists() {
 			grep -q "^build $target: " "$build/build.ninja" || fail "$1: no target $target"
 		done ;;
 	esac
-	pattern=$(printf '%s\n' "$1" | sed -n 's/^ctest -R \([^ ]*\).*/\1/p')
+	pattern=$(printf '%s\n' "$1" | sed -n "s/^ctest --preset release -R '*\([^ ']*\).*/\1/p")
 	[ -z "$pattern" ] || grep -Eq -e "$pattern" tests.txt || fail "$1: no such test"
-	label=$(printf '%s\n' "$1" | sed -n 's/^ctest -L \([^ ]*\).*/\1/p')
+	case $1 in ctest\ -*) case $1 in "ctest --preset "*) ;; *) fail "$1: finds no tests at the repository's top: give --preset" ;; esac ;; esac
+	label=$(printf '%s\n' "$1" | sed -n 's/^ctest --preset release -L \([^ ]*\).*/\1/p')
 	[ -z "$label" ] || (cd "$build" && ctest -N -L "$label") | grep -q 'Test *#' || fail "$1: no test has the label"
 }
 

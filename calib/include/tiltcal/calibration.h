@@ -263,6 +263,7 @@ struct RealLens
 	bool fifth_order = false;         ///< the ten are there
 	std::vector<RimEstimate> rims;    ///< found together with the lens; of six numbers those of the thin lens, larger as the aperture is
 	std::vector<RealLensState> states;
+	NamedCovariance covariance;       ///< of these numbers as the edges scatter, the six-number lens's as it stands about poses of each state's own
 	double rms_place = 0, rms_blur = 0;       ///< robust, px
 	/// The same of the shape of blurs, as parts of their light: asymmetry and hollowness (edge/disc_shape.h); where the lens was fitted to it.
 	std::optional<std::array<double, 2>> rms_shape;
@@ -292,6 +293,7 @@ struct Calibration
 	Solution solution;           ///< of the model asked for, with `geometry`; where a real lens is the answer, the thin lens that it starts from
 	Solution render;             ///< the same model with `pinhole`: the camera where distortion is switched off
 	bool refined = true;         ///< false: the joint refinement was asked for and did not converge
+	bool jointly = false;        ///< geometry and blur were refined together: it was asked for, and converged
 	std::vector<PhotographCheck> photographs;   ///< of the exact models
 	BoardCheck board_check;
 	FocusCheck focus_check;
