@@ -246,12 +246,9 @@ Calibration Solve(const Task& measured, const CalibrateOptions& o)
 	LogEffects(c, log);
 	ChooseEffects(o.effects, c);
 	if (model != Model::PAPER)
-	{
 		FindRealLens(SolveThroughRims(measured, o, c), o, c);
-		if (c.RealLensIsUsed())
-			ClearByRealLens(*c.real_lens, c.photographs);
-		c.light = CheckLight(c);
-	}
+	if (c.RealLensIsUsed())
+		ClearByRealLens(*c.real_lens, c.photographs);
 	// Of what scatters: further photographs do not change what the model leaves out.
 	if (model != Model::PAPER && c.refined && o.next_photographs)
 		c.next = FindNextPhotographs(c);
@@ -259,6 +256,9 @@ Calibration Solve(const Task& measured, const CalibrateOptions& o)
 	WidenByFloor(c);
 	WidenByUnknownPupils(c);
 	WidenTilts(c);
+	// By what is known of the floor after all.
+	if (model != Model::PAPER)
+		c.light = CheckLight(c);
 	c.verdict = Judge(c);
 	// Last: such a lens is graded by its tilts.
 	WidenByRealLens(c);

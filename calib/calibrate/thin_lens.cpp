@@ -215,7 +215,7 @@ void SolveThinLens(const Task& measured, const std::optional<Model>& model, cons
 
 Task SolveThroughRims(const Task& measured, const CalibrateOptions& o, Calibration& c)
 {
-	if (WrittenRims(c).empty() || !c.jointly || HoldBackTheAxis(RimsOf(WrittenRims(c)), c))
+	if (WrittenRims(c).empty() || !c.refined || HoldBackTheAxis(RimsOf(WrittenRims(c)), c))
 		return c.task;
 	o.log.Info("solving geometry and lens once more, with the rims that vignette");
 	const Calibration without = c;

@@ -232,7 +232,9 @@ private:
 		const double apart = difference.norm();
 		if (apart == 0)
 			return;
-		const double sigma = std::hypot(blur.SigmaAlong(difference / apart), geometry.SigmaAlong(difference / apart));
+		// What the camera leaves out of places is common to many of them, and does not average out as their noise does.
+		const double of_places = PlacesAreLeftOver(c) ? c.geometry.rms / NoiseOfPlaces(c.task) : 1;
+		const double sigma = std::hypot(blur.SigmaAlong(difference / apart), of_places * geometry.SigmaAlong(difference / apart));
 		if (apart > 3 * sigma && apart > 0.05)
 			Say(apart > 0.5 && apart > 5 * sigma ? Grade::POOR : Grade::FAIR, fmt::format("state {}: blur and geometry, each alone, disagree by {:.2f} degrees ({:.0f} sigma); {}. "
 				"Was the board moved between the states, or the camera?", StateName(s), apart, apart / sigma, s || c.task.untilted_free ? "blur decides" : "it is taken to be untilted"));

@@ -44,6 +44,17 @@ calibrate() {
 		fail "tiltcal: $(tail -3 calibrate.log)"
 }
 
+# told_rightly: the camera that photographed, within what is told of it, and nothing said against the photographs, in which nothing is wrong.
+told_rightly() {
+	within aperture_diameter_mm aperture_diameter_sigma_mm 16
+	within image_distance_mm image_distance_sigma_mm 48
+	within focus_distance_mm focus_distance_sigma_mm 629.647   # 1 / (1/44.6 - 1/48)
+	within focal_length_mm focal_length_sigma_mm 44.6
+	# Two terms or none, and no distortion.
+	[ "$(number distortion_terms)" = 0 ] || { within k1 k1_sigma 0; within k2 k2_sigma 0; }
+	[ "$(number grade)" = '"good"' ] || fail "the verdict is $(number grade): $(grep '"text"' result/calibration.json)"
+}
+
 case $case in
 plane)
 	# The board that tiltcal itself makes.
@@ -56,6 +67,7 @@ plane)
 	# by 18 * d / f * 0.030 degrees = 0.0034 mm, 0.08 of these pixels; the edges are 5 to 20 wide.
 	tilt a 8 130 0.030
 	[ "$(number model)" = '"plane"' ] || fail "took the model $(number model)"
+	told_rightly
 	;;
 bowl)
 	photographs untilted 0 0 -0.001
@@ -63,6 +75,7 @@ bowl)
 	calibrate
 	tilt a 5 60 0.030
 	[ "$(number model)" = '"curved"' ] || fail "took the model $(number model)"
+	told_rightly
 	number field_curvature_per_mm | awk '{ print "field curvature", $1; n++; C = $1 } END { exit !(n == 1 && C > -0.00102 && C < -0.00098) }' || fail "not -0.001 within 2 %"
 	;;
 rims)
@@ -72,8 +85,7 @@ rims)
 	calibrate
 	tilt a 5 60 0.030
 	within field_curvature_per_mm field_curvature_sigma_per_mm -0.0006
-	within aperture_diameter_mm aperture_diameter_sigma_mm 16
-	within image_distance_mm image_distance_sigma_mm 48
+	told_rightly
 	;;
 *)
 	fail "no case '$case'"
