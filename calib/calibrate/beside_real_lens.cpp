@@ -180,6 +180,8 @@ void WidenByRealLens(Calibration& c)
 	for (Solution* told : { &c.solution, &c.render })
 	{
 		Widen(f, told->focal_length);
+		// It is the glass's, and no better known than of the lens that is the answer.
+		told->focal_length.sigma = std::max(told->focal_length.sigma, c.real_lens->focal_length_mm.sigma);
 		Widen(OfEach(lenses, [](const RealLens& l) { return l.opening_on_axis_mm.value; }), told->aperture_diameter);
 		for (const RealLens* lens : lenses)
 			WidenStops(lens->stop_ratios, told->stop_ratios);
@@ -187,6 +189,7 @@ void WidenByRealLens(Calibration& c)
 		for (size_t s = 0; s < told->states.size(); ++s)
 		{
 			Widen(f, told->states[s].focal_length);
+			told->states[s].focal_length.sigma = std::max(told->states[s].focal_length.sigma, c.real_lens->focal_length_mm.sigma);
 			WidenPlane(lenses, s, told->states[s]);
 			WidenTilt(c.real_lens->states[s].lens, 1, told->states[s]);
 		}

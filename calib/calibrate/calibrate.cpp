@@ -162,15 +162,18 @@ void WidenByFloor(Calibration& c)
 		++c.fits_without_answer;
 }
 
-/// Sigmas of a thin lens whose photographs misfit by more than noise, in blur or in places.
+/// Sigmas of a thin lens. Glass that noise hides from each edge still puts all of them together elsewhere.
 void WidenWhereGlassShows(const CalibrateOptions& o, Calibration& c)
 {
-	if (!c.jointly || c.RealLensIsUsed() || !MoreThanNoiseIsLeftOver(c))
+	if (!c.jointly || c.RealLensIsUsed())
 		return;
 	o.log.Info("solving parts of the edges: how far they put the lens apart");
 	const Solution whole = c.solution;
 	c.thin_as_it_scatters = whole.states;
-	const std::vector<PartAnswer> parts = SolveParts(c, c.fits_without_answer);
+	int without_answer = 0;
+	const std::vector<PartAnswer> parts = SolveParts(c, without_answer);
+	// Few edges have halves that tell nothing, which is no fault where they fit.
+	c.fits_without_answer += MoreThanNoiseIsLeftOver(c) ? without_answer : 0;
 	WidenByParts(whole, parts, c);
 }
 
