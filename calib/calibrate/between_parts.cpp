@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
 #include "calibrate/between_parts.h"
+#include "calibrate/left_over.h"
 
 #include "lens/angles.h"
 #include "lens/optics.h"
 #include "model/pose_difference.h"
+#include "model/predict.h"
 #include "model/thin_lens_of_real.h"
 #include "model/tilt_angles.h"
+#include "solve/each_edge.h"
 #include "solve/half_of_edges.h"
 #include "solve/solve_joint.h"
 
@@ -35,7 +38,7 @@ void Widen(const std::vector<PartAnswer>& parts, Of distance, double& sigma)
 	for (const PartAnswer& part : parts)
 	{
 		Distance d = distance(part);
-		d = { part.share * d.apart, part.own_scatter ? d.scatter : 0 };
+		d = { part.share * d.apart, part.chance > 0 ? std::sqrt(part.chance) * d.scatter : 0 };
 		// A focus at infinity is no distance to compare.
 		if (std::isfinite(d.apart) && std::isfinite(d.scatter))
 			farthest = std::max(farthest, d.apart * d.apart - d.scatter * d.scatter);
@@ -73,9 +76,12 @@ std::vector<PartAnswer> SolveParts(const Calibration& c, int& without_answer)
 	// The board's size moves parts and whole alike: it is in the sigmas of the whole, and no scatter of a part.
 	Task task = c.task;
 	task.board.square_sigma_mm = 0;
-	for (const EdgeSubset& half : FourHalvesOfEdges(task))
+	const double chance = MoreThanNoiseIsLeftOver(c) ? 1 : 2;
+	std::vector<double> blurs;
+	ForEachEdge(task, [&](size_t s, size_t p, const Edge& e) { blurs.push_back(PredictedBlur(c, s, p, e)); });
+	for (const EdgeSubset& half : FourHalvesOfEdges(task, blurs))
 	{
-		PartAnswer part{ c.geometry, c.solution };
+		PartAnswer part{ c.geometry, c.solution, chance };
 		if (RefineJointly(WithEdges(task, half), Refinement::EDGES, part.geometry, part.solution))
 			parts.push_back(part);
 		else

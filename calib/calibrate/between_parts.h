@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 //
-// What a thin lens's numbers are worth where its edges misfit and no real lens was found.
+// What a thin lens's numbers are worth where no real lens was found.
 
 #ifndef TILTCAL_BETWEEN_PARTS_H
 #define TILTCAL_BETWEEN_PARTS_H
@@ -18,7 +18,7 @@ struct PartAnswer
 {
 	Geometry geometry;
 	Solution solution;
-	bool own_scatter = true;   ///< false: the same edges, which scatter alike
+	double chance = 1;         ///< so much of its own variance is chance in its squared distance; 0: the same edges, which scatter alike
 	double share = 1;          ///< of its distance that sigmas are to hold
 };
 
@@ -26,10 +26,10 @@ struct PartAnswer
 /// it, the sharper and the more blurred half. Those that converge, the others are added to `without_answer`; calibration.solution is an exact model's, jointly refined.
 std::vector<PartAnswer> SolveParts(const Calibration& calibration, int& without_answer);
 
-/// Where blur or places misfit by more than noise and no real lens is used, what the thin lens leaves out is the same in every photograph: neither
-/// residuals nor the photographs against each other scatter by it. It differs from part to part of the picture and of the blur, so w, f, U, d and tilts
+/// Where no real lens is used, what the thin lens leaves out is the same in every photograph: neither
+/// residuals nor the photographs against each other scatter by it, and noise may hide it in each edge that still puts all of them elsewhere. It differs from part to part of the picture and of the blur, so w, f, U, d and tilts
 /// are put elsewhere by parts of the edges; the sigmas of `told` are widened in quadrature by the farthest part's distance, less what that part
-/// scatters itself. `covariance` and `sigma_by_photographs` stay what scatters.
+/// scatters itself; where blur and places fit to their noise less twice that, for a half is apart from the whole by half its own variance: two sigmas, within which it is chance. `covariance` and `sigma_by_photographs` stay what scatters.
 void WidenByParts(const Solution& whole, const std::vector<PartAnswer>& parts, Solution& told);
 
 /// The same of where boards, lens centres and principal points are.

@@ -57,7 +57,7 @@ std::optional<PartAnswer> SolveWithGaussianFloor(const Calibration& c)
 				const double square = edge.blur * std::abs(edge.blur) - Excess(floor, edge.blur);
 				edge.blur = std::copysign(std::sqrt(std::abs(square)), square);
 			}
-	PartAnswer answer{ c.geometry, c.solution, false, 1 / std::sqrt(3.0) };
+	PartAnswer answer{ c.geometry, c.solution, 0, 1 / std::sqrt(3.0) };
 	if (!RefineJointly(task, Refinement::EDGES, answer.geometry, answer.solution))
 		return std::nullopt;
 	return answer;

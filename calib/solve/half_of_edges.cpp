@@ -3,6 +3,7 @@
 #include "solve/half_of_edges.h"
 
 #include "base/robust.h"
+#include "solve/each_edge.h"
 
 #include <cmath>
 
@@ -12,19 +13,18 @@ namespace tiltcal
 namespace
 {
 
-/// Of the edges of each photograph those whose number `of` is above its median, or those up to it.
-template<typename Number>
-EdgeSubset HalfOf(const Task& task, Number of, bool above)
+/// Of the edges of each photograph those whose number is above its median, or those up to it.
+EdgeSubset HalfOf(const Task& task, const std::vector<double>& numbers, bool above)
 {
 	EdgeSubset half;
+	auto first = numbers.begin();
 	for (const State& state : task.states)
 		for (const Photo& photo : state.photos)
 		{
-			std::vector<double> numbers;
-			for (const Edge& edge : photo.edges)
-				numbers.push_back(of(edge));
-			const double median = numbers.empty() ? 0 : Median(numbers);
-			for (const double number : numbers)
+			const std::vector<double> own(first, first + std::ptrdiff_t(photo.edges.size()));
+			first += std::ptrdiff_t(own.size());
+			const double median = own.empty() ? 0 : Median(own);
+			for (const double number : own)
 				half.push_back((number > median) == above);
 		}
 	return half;
@@ -32,11 +32,13 @@ EdgeSubset HalfOf(const Task& task, Number of, bool above)
 
 }
 
-std::vector<EdgeSubset> FourHalvesOfEdges(const Task& task)
+std::vector<EdgeSubset> FourHalvesOfEdges(const Task& task, const std::vector<double>& blurs)
 {
-	const auto from_middle = [&](const Edge& e) { return std::hypot(e.x - 0.5 * (task.width - 1), e.y - 0.5 * (task.height - 1)); };
-	const auto blur = [](const Edge& e) { return std::abs(e.blur); };
-	return { HalfOf(task, from_middle, false), HalfOf(task, from_middle, true), HalfOf(task, blur, false), HalfOf(task, blur, true) };
+	std::vector<double> from_middle, widths;
+	ForEachEdge(task, [&](size_t, size_t, const Edge& e) { from_middle.push_back(std::hypot(e.x - 0.5 * (task.width - 1), e.y - 0.5 * (task.height - 1))); });
+	for (const double blur : blurs)
+		widths.push_back(std::abs(blur));
+	return { HalfOf(task, from_middle, false), HalfOf(task, from_middle, true), HalfOf(task, widths, false), HalfOf(task, widths, true) };
 }
 
 Task WithEdges(const Task& task, const EdgeSubset& subset)

@@ -248,6 +248,14 @@ Eigen::VectorXd VarianceByParts(ceres::Problem& problem, const std::vector<Photo
 	return farthest;
 }
 
+/// Of every edge, px; `residuals` as RealLensFit::Residuals gives them.
+std::vector<double> BlursAsFitted(const Task& task, const std::vector<std::array<double, 2>>& residuals)
+{
+	std::vector<double> blurs;
+	ForEachEdge(task, [&](size_t, size_t, const Edge& e) { blurs.push_back(e.blur + residuals[blurs.size()][1]); });
+	return blurs;
+}
+
 /// Of these blocks, scaled by the residuals; none: singular.
 std::optional<Eigen::MatrixXd> CovarianceByEdges(ceres::Problem& problem, const std::vector<const double*>& blocks)
 {
@@ -298,7 +306,7 @@ std::optional<RealLensFit::Judged> RealLensFit::Judge(const std::vector<RealLens
 		judged.by_photographs = jackknife->Of(shared);
 		judged.held_out = jackknife->HeldOut();
 	}
-	judged.variance_by_parts = VarianceByParts(problem, photographs, FourHalvesOfEdges(task), shared, judged.parts_without_answer);
+	judged.variance_by_parts = VarianceByParts(problem, photographs, FourHalvesOfEdges(task, BlursAsFitted(task, Residuals(edges, x))), shared, judged.parts_without_answer);
 	return judged;
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 
 #include "calibrate/between_parts.h"
+#include "calibrate/left_over.h"
 #include "calibrate/verdict.h"
 #include "model/thin_lens_of_real.h"
+#include "support/sigma_in.h"
 #include "support/synthetic_lens.h"
 
 #include <tiltcal/calibrate.h>
@@ -122,6 +124,29 @@ TEST(BetweenParts, AThinLensIsNotPutApart)
 	for (const PartAnswer& part : parts)
 		for (Estimate Solution::* number : { &Solution::w_mm, &Solution::focal_length, &Solution::aperture_diameter })
 			EXPECT_LT(std::abs((part.solution.*number).value - (c.solution.*number).value), 4 * (part.solution.*number).sigma);
+}
+
+// An opening that grows with the field, by 3 % at the farthest edge, which the noise of each edge hides: d, which is told as it is on the axis, is off by a's mean over
+// the edges. Of edges that lie evenly over the picture's circle the inner half's mean is a quarter, the whole's a half: off by twice what the sigma holds.
+TEST(BetweenParts, GlassThatNoiseHidesIsHeld)
+{
+	const synthetic::Lens lens;
+	Task task = synthetic::TwoStates(lens, synthetic::Tilted(5, 30), { 0.03, 0.06, 1 }, { 0.03, 0.06, 2 });
+	const auto squared_radius = [&](const Edge& e) { return std::pow(e.x - 0.5 * (task.width - 1), 2) + std::pow(e.y - 0.5 * (task.height - 1), 2); };
+	double farthest = 0;
+	for (const State& state : task.states)
+		for (const Photo& photo : state.photos)
+			for (const Edge& edge : photo.edges)
+				farthest = std::max(farthest, squared_radius(edge));
+	for (State& state : task.states)
+		for (Photo& photo : state.photos)
+			for (Edge& edge : photo.edges)
+				edge.blur *= 1 + 0.03 * squared_radius(edge) / farthest;
+	const Calibration c = Calibrate(task, { Model::PLANE, Poses::OWN });
+	ASSERT_FALSE(MoreThanNoiseIsLeftOver(c));
+	const Estimate& d = c.solution.aperture_diameter;
+	EXPECT_GT(std::abs(d.value - lens.d), 4 * SigmaIn(c.solution.covariance, "aperture_diameter_mm")) << "too little to judge by";
+	EXPECT_LT(std::abs(d.value - lens.d), 3 * d.sigma);
 }
 
 // A part that says nothing leaves the sigmas as small as they were: that is told.

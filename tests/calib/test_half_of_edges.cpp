@@ -2,6 +2,7 @@
 //
 // Parts of the edges that a fit is made again of.
 
+#include "solve/each_edge.h"
 #include "solve/half_of_edges.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +37,9 @@ Task ThreePhotographs()
 TEST(HalvesOfEdges, PartEachPhotographInTwoAndTwo)
 {
 	const Task task = ThreePhotographs();
-	const std::vector<EdgeSubset> halves = FourHalvesOfEdges(task);
+	std::vector<double> blurs;
+	ForEachEdge(task, [&](size_t, size_t, const Edge& e) { blurs.push_back(e.blur); });
+	const std::vector<EdgeSubset> halves = FourHalvesOfEdges(task, blurs);
 	ASSERT_EQ(halves.size(), 4u);
 	for (const size_t two : { 0u, 2u })
 		for (size_t k = 0; k < 14; ++k)

@@ -11,6 +11,7 @@
 #include "report/report_html.h"
 #include "report/report_next.h"
 #include "support/page_check.h"
+#include "support/sigma_in.h"
 #include "support/thin_lens_picture.h"
 #include <tiltcal/calibrate.h>
 #include <tiltcal/error.h>
@@ -108,12 +109,7 @@ double ByEdges(const Calibration& c, const std::string& name)
 {
 	const std::map<std::string, std::string> names{ { "image_distance", "image_distance_mm" }, { "aperture_diameter", "aperture_diameter_mm" }, { "inverse_focus_distance", "untilted.q_z_per_mm" },
 		{ "plus4.lens_tilt", "plus4.q_y_per_mm" } };
-	const NamedCovariance& v = c.solution.covariance;
-	for (size_t k = 0; k < v.names.size(); ++k)
-		if (v.names[k] == names.at(name))
-			return std::sqrt(v.matrix[k * (v.names.size() + 1)]);
-	ADD_FAILURE() << "no " << name;
-	return 0;
+	return SigmaIn(c.solution.covariance, names.at(name));
 }
 
 const char* const NAMES[] = { "image_distance", "aperture_diameter", "inverse_focus_distance", "plus4.lens_tilt" };
