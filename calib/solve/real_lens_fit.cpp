@@ -299,6 +299,7 @@ std::optional<RealLensFit::Judged> RealLensFit::Judge(const std::vector<RealLens
 	const std::optional<Eigen::MatrixXd> by_edges = CovarianceByEdges(problem, shared);
 	if (!by_edges)
 		return std::nullopt;
+	const std::vector<EdgeSubset> halves = FourHalvesOfEdges(task, BlursAsFitted(task, Residuals(edges, x)));
 	Judged judged;
 	judged.by_edges = *by_edges;
 	if (const std::optional<CovarianceByPhotographs> jackknife = JackknifeOverPhotographs(problem, photographs))
@@ -306,7 +307,7 @@ std::optional<RealLensFit::Judged> RealLensFit::Judge(const std::vector<RealLens
 		judged.by_photographs = jackknife->Of(shared);
 		judged.held_out = jackknife->HeldOut();
 	}
-	judged.variance_by_parts = VarianceByParts(problem, photographs, FourHalvesOfEdges(task, BlursAsFitted(task, Residuals(edges, x))), shared, judged.parts_without_answer);
+	judged.variance_by_parts = VarianceByParts(problem, photographs, halves, shared, judged.parts_without_answer);
 	return judged;
 }
 
