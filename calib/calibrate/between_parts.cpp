@@ -70,7 +70,7 @@ void WidenTilt(const StateLens& whole, size_t state, const std::vector<PartAnswe
 
 }
 
-std::vector<PartAnswer> SolveParts(const Calibration& c, int& without_answer)
+std::vector<PartAnswer> SolveParts(const Calibration& c, int& without_answer, bool by_place_alone)
 {
 	std::vector<PartAnswer> parts;
 	// The board's size moves parts and whole alike: it is in the sigmas of the whole, and no scatter of a part.
@@ -79,7 +79,9 @@ std::vector<PartAnswer> SolveParts(const Calibration& c, int& without_answer)
 	const double chance = MoreThanNoiseIsLeftOver(c) ? 1 : 2;
 	std::vector<double> blurs;
 	ForEachEdge(task, [&](size_t s, size_t p, const Edge& e) { blurs.push_back(PredictedBlur(c, s, p, e)); });
-	for (const EdgeSubset& half : FourHalvesOfEdges(task, blurs))
+	std::vector<EdgeSubset> halves = FourHalvesOfEdges(task, blurs);
+	halves.resize(by_place_alone ? 2 : halves.size());
+	for (const EdgeSubset& half : halves)
 	{
 		PartAnswer part{ c.geometry, c.solution, chance };
 		if (RefineJointly(WithEdges(task, half), Refinement::EDGES, part.geometry, part.solution))

@@ -24,7 +24,8 @@ struct PartAnswer
 
 /// The joint fit of `calibration` again, by edges, of the half of each photograph's edges that is nearer to the picture's middle, the half farther from
 /// it, the sharper and the more blurred half. Those that converge, the others are added to `without_answer`; calibration.solution is an exact model's, jointly refined.
-std::vector<PartAnswer> SolveParts(const Calibration& calibration, int& without_answer);
+/// `by_place_alone`: the first two; noise on small blurs puts the sharper half apart by itself, some sigmas where all fits to its noise.
+std::vector<PartAnswer> SolveParts(const Calibration& calibration, int& without_answer, bool by_place_alone = false);
 
 /// Where no real lens is used, what the thin lens leaves out is the same in every photograph: neither
 /// residuals nor the photographs against each other scatter by it, and noise may hide it in each edge that still puts all of them elsewhere. It differs from part to part of the picture and of the blur, so w, f, U, d and tilts

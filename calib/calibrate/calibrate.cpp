@@ -171,9 +171,10 @@ void WidenWhereGlassShows(const CalibrateOptions& o, Calibration& c)
 	const Solution whole = c.solution;
 	c.thin_as_it_scatters = whole.states;
 	int without_answer = 0;
-	const std::vector<PartAnswer> parts = SolveParts(c, without_answer);
+	const bool misfits = MoreThanNoiseIsLeftOver(c);
+	const std::vector<PartAnswer> parts = SolveParts(c, without_answer, !misfits);
 	// Few edges have halves that tell nothing, which is no fault where they fit.
-	c.fits_without_answer += MoreThanNoiseIsLeftOver(c) ? without_answer : 0;
+	c.fits_without_answer += misfits ? without_answer : 0;
 	WidenByParts(whole, parts, c);
 }
 

@@ -6,14 +6,12 @@
 #include "solve/real_lens_edge_cost.h"
 #include "solve/real_lens_fit.h"
 #include "solve/stop_ratios.h"
-#include "support/sigma_in.h"
 #include "support/synthetic_lens.h"
 
 #include <tiltcal/calibrate.h>
 #include <tiltcal/error.h>
 
 #include <ceres/sized_cost_function.h>
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -199,8 +197,7 @@ TEST(Stops, TheRatioOfAThinLensIsFound)
 	const Estimate& ratio = s.stop_ratios[1];
 	std::printf("ratio %.5f +- %.5f (%.5f), d %.4f +- %.4f, tilt error %.4f +- %.4f\n", ratio.value, ratio.sigma, RATIO, s.aperture_diameter.value, s.aperture_diameter.sigma,
 		synthetic::TiltError(s.states[1], synthetic::Tilted(5, 30)), s.states[1].lens_tilt.sigma);
-	ASSERT_EQ(c.solution.covariance.names.back(), fmt::format("stop_f{:g}.log_ratio", c.task.stops[1].f_number));
-	EXPECT_LT(SigmaIn(c.solution.covariance, c.solution.covariance.names.back()), 0.1 * STOP_SIGMA) << "told by the photographs";
+	EXPECT_LT(ratio.sigma, 0.1 * STOP_SIGMA * RATIO) << "told by the photographs";
 	EXPECT_NEAR(ratio.value, RATIO, 4 * ratio.sigma);
 	EXPECT_NEAR(s.aperture_diameter.value, synthetic::Lens().d, 4 * s.aperture_diameter.sigma);
 	EXPECT_NEAR(s.states[1].lens_tilt.value, 5, 4 * s.states[1].lens_tilt.sigma);
