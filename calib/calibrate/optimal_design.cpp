@@ -2,6 +2,7 @@
 
 #include "calibrate/optimal_design.h"
 
+#include "calibrate/one_photograph.h"
 #include "model/tilt_angles.h"
 #include "solve/solve_joint.h"
 
@@ -144,7 +145,7 @@ void Design::SetGoals(const JointInformation& all)
 	const auto row = [&](At at) -> Eigen::VectorXd { return all.planes.row(at.index).transpose(); };
 	Add("image_distance", "mm", s.w_mm.sigma, WANTED_OF_W * s.w_mm.value, row(Number::IMAGE_DISTANCE));
 	Add("aperture_diameter", "mm", s.aperture_diameter.sigma, WANTED_OF_D * s.aperture_diameter.value, row(Number::APERTURE_DIAMETER), relative * s.aperture_diameter.value);
-	Add("inverse_focus_distance", "1/m", 1000 * s.states[0].q_sigma.z, 1000 * WANTED_OF_NEARNESS * Nearness(), 1000 * row(At(0, Axis::Z)), 1000 * relative * std::abs(s.states[0].q.z));
+	Add("inverse_focus_distance", "1/m", 1000 * s.states[0].q_sigma.z, 1000 * WANTED_OF_NEARNESS * MeanNearness(c.geometry), 1000 * row(At(0, Axis::Z)), 1000 * relative * std::abs(s.states[0].q.z));
 	for (size_t k = 0; k < c.task.states.size(); ++k)
 	{
 		const std::string& name = c.task.states[k].name;
@@ -189,18 +190,6 @@ void Design::AddTilt(size_t k, const JointInformation& all)
 	const double swing = std::min(lens.tilt_direction.sigma * M_PI / 180 * size, 10 * WANTED_TILT);
 	if (size > 10 * lens.lens_tilt.sigma)
 		Add(c.task.states[k].name + ".tilt_across", "deg", swing, WANTED_TILT, aside);
-}
-
-double Design::Nearness() const
-{
-	double sum = 0, count = 0;
-	for (const StateGeometry& state : c.geometry.states)
-		for (const Pose& pose : state.poses)
-		{
-			sum += 1 / pose[5];
-			count += 1;
-		}
-	return sum / std::max(count, 1.0);
 }
 
 }

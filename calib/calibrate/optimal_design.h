@@ -50,8 +50,6 @@ private:
 	void SetGoals(const JointInformation& all);
 	/// The tilt, and how far its direction moves it aside.
 	void AddTilt(size_t k, const JointInformation& all);
-	/// 1/z of the boards, their mean, 1/mm.
-	double Nearness() const;
 
 	const Calibration& c;
 	std::vector<NextPhotograph> looks;
