@@ -2,6 +2,7 @@
 
 #include "calibrate/exif_check.h"
 
+#include "model/told_state.h"
 #include <tiltcal/error.h>
 
 #include <fmt/format.h>
@@ -22,14 +23,12 @@ const double FAR_FOCAL_LENGTH = 0.06, FAR_F_NUMBER = 0.2;
 
 const double SAME_PITCH = 0.002;
 
-/// Of those at that stop; none: of all.
-std::vector<PhotographFacts> FactsOf(const Task& task, std::optional<size_t> stop = {})
+std::vector<PhotographFacts> FactsOf(const Task& task)
 {
 	std::vector<PhotographFacts> all;
 	for (const State& state : task.states)
 		for (const Photo& photo : state.photos)
-			if (photo.stop == stop.value_or(photo.stop))
-				all.push_back(photo.facts);
+			all.push_back(photo.facts);
 	return all;
 }
 
@@ -102,7 +101,22 @@ PhotographFacts CommonFacts(const std::vector<PhotographFacts>& all)
 
 PhotographFacts CommonFacts(const Task& task) { return CommonFacts(FactsOf(task)); }
 
-std::optional<double> FNumberOfReference(const Task& task) { return CommonFacts(FactsOf(task, 0)).f_number; }
+std::optional<NominalFNumber> FNumberOfReference(const Task& task)
+{
+	std::vector<PhotographFacts> all;
+	bool told = false;
+	for (const State& state : task.states)
+		for (const Photo& photo : state.photos)
+			if (photo.stop == 0)
+			{
+				all.push_back(photo.facts);
+				told = told || photo.f_number;
+				if (photo.f_number)
+					all.back().f_number = photo.f_number;
+			}
+	const std::optional<double> value = CommonFacts(all).f_number;
+	return value ? std::optional<NominalFNumber>({ *value, told }) : std::nullopt;
+}
 
 double PitchFromExif(const std::vector<std::string>& files, const Log& log)
 {
@@ -111,14 +125,13 @@ double PitchFromExif(const std::vector<std::string>& files, const Log& log)
 	{
 		all.push_back(ReadFacts(file));
 		if (!all.back().pitch_mm)
-			throw UsageError(fmt::format("`pitch` is required: {} does not say it (EXIF FocalPlaneXResolution, in a picture neither scaled nor cropped); "
+			throw UsageError(fmt::format("`pitch` is required: {} does not say it (EXIF FocalPlaneXResolution, in a picture neither scaled nor cropped, that FocalLengthIn35mmFilm does not contradict); "
 				"give the distance of pixel centres on the sensor in mm, such as 0.00655", file));
 	}
 	const std::optional<double> pitch = CommonPitch(all);
 	if (!pitch)
 		throw UsageError("`pitch` is required: the photographs' EXIF (FocalPlaneXResolution) differs; give the distance of pixel centres on the sensor in mm");
-	log.Info(fmt::format("pitch {:.6f} mm from EXIF (FocalPlaneXResolution), which makers round by up to some per cent: "
-		"where the data sheet says sensor width and pixels, give `pitch`", *pitch));
+	log.Info(fmt::format("pitch {:.6f} mm from EXIF (FocalPlaneXResolution)", *pitch));
 	return *pitch;
 }
 
@@ -141,22 +154,39 @@ void LogFacts(const Task& task, const Log& log)
 		[](const PhotographFacts& f) { return fmt::format("{}", f.orientation); });
 }
 
+void WarnOfOtherSetting(const Task& task, const std::string& flat_field, const PhotographFacts& facts, const Log& log)
+{
+	const PhotographFacts common = CommonFacts(task);
+	const std::optional<NominalFNumber> nominal = FNumberOfReference(task);
+	const auto warn = [&](const std::string& what) { log.Warn(fmt::format("`flat_field` {}: EXIF says {}: vignetting is of one setting; photograph it at that of the board's", flat_field, what)); };
+	if (facts.f_number && nominal && !IsSameFNumber(*facts.f_number, nominal->value))
+		warn(fmt::format("f/{:.3g}, the photographs{} are of f/{:.3g}", *facts.f_number, task.stops.empty() ? "" : " at the widest stop", nominal->value));
+	if (facts.focal_length_mm && common.focal_length_mm && !Same(*facts.focal_length_mm, *common.focal_length_mm))
+		warn(fmt::format("{:g} mm, the photographs {:g} mm", *facts.focal_length_mm, *common.focal_length_mm));
+	if (!facts.model.empty() && !common.model.empty() && facts.model != common.model)
+		warn(fmt::format("{}, the photographs {}", facts.model, common.model));
+}
+
 std::vector<std::string> CompareWithExif(const Calibration& c)
 {
 	std::vector<std::string> words;
 	const PhotographFacts facts = CommonFacts(c.task);
 	const Estimate &focal_length = c.RealLensIsUsed() ? c.real_lens->focal_length_mm : c.solution.focal_length, &aperture = c.RealLensIsUsed() ? c.real_lens->aperture_diameter_mm : c.solution.aperture_diameter;
 	const double f = focal_length.value, d = aperture.value;
+	if (c.task.pitch_from_exif)
+		words.push_back(fmt::format("the pixel pitch, {:.6f} mm, is EXIF's (FocalPlaneXResolution), as of a sensor of {:.1f} x {:.1f} mm: makers round it by some per cent, and some write that of another sensor. "
+			"All lengths of the lens are proportional to it, and their sigmas do not hold that: compare with the data sheet's sensor, and give `pitch`", c.task.pitch_mm, c.task.width * c.task.pitch_mm, c.task.height * c.task.pitch_mm));
 	if (facts.focal_length_mm && f > 0 && std::abs(f / *facts.focal_length_mm - 1) > FAR_FOCAL_LENGTH + 3 * focal_length.sigma / f)
 		words.push_back(fmt::format("focal length f {:.2f} +- {:.2f} mm, EXIF {:g} mm (engraved, rounded, for infinity; to compare with f, not with the image distance w {:.2f} mm). "
 			"Believe f if `pitch` is right and the photographs were not scaled, for f is proportional to the pitch; many lenses also shorten f when focused near. Else EXIF may be of another lens",
 			f, focal_length.sigma, *facts.focal_length_mm, c.solution.w_mm.value));
-	if (const std::optional<double> told = FNumberOfReference(c.task); told && f > 0 && d > 0)
+	if (const std::optional<NominalFNumber> nominal = FNumberOfReference(c.task); nominal && f > 0 && d > 0)
 	{
 		const double number = f / d, relative = std::hypot(focal_length.sigma / f, aperture.sigma / d);
-		if (std::abs(std::log(number / *told)) > FAR_F_NUMBER + 3 * relative)
-			words.push_back(fmt::format("f-number f/d {:.2f} +- {:.2f}, EXIF {:.3g} (the marked stop, rounded). Believe d {:.2f} mm for rendering: it is what blurred these photographs; "
-				"but a wrong `transfer`, `pitch` or `square` shows here too, and a lens with its own aperture ring writes no f-number that is true", number, number * relative, *told, d));
+		if (std::abs(std::log(number / nominal->value)) > FAR_F_NUMBER + 3 * relative)
+			words.push_back(fmt::format("f-number f/d {:.2f} +- {:.2f}, {} {:.3g} (the marked stop, rounded). Believe d {:.2f} mm for rendering: it is what blurred these photographs; "
+				"but a wrong `transfer`, `pitch` or `square` shows here too{}", number, number * relative, nominal->told ? "told" : "EXIF", nominal->value, d,
+				nominal->told ? "" : ", and a lens with its own aperture ring writes no f-number that is true"));
 	}
 	return words;
 }
@@ -193,7 +223,8 @@ std::vector<Prior> PriorsFromExif(const Task& task, const std::vector<Prior>& gi
 			priors.push_back({ quantity, *value, 0.1 * *value });
 	};
 	add(Quantity::FOCAL_LENGTH, facts.focal_length_mm);
-	add(Quantity::F_NUMBER, FNumberOfReference(task));
+	const std::optional<NominalFNumber> nominal = FNumberOfReference(task);
+	add(Quantity::F_NUMBER, nominal ? std::optional(nominal->value) : std::nullopt);
 	return priors;
 }
 

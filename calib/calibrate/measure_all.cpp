@@ -40,11 +40,7 @@ void LogPhoto(const Photo& photo, size_t number, size_t total, const Log& log)
 	}
 	log.Info(fmt::format("[{}/{}] {}: {}, blur {:.1f} to {:.1f} px; {}", number, total, photo.file,
 		CountText(photo), least, most, RatioText(photo)));
-	if (photo.edges_dropped > 0)
-		log.Warn(fmt::format("{}: {} of {} edges left out, too blurred or too noisy", photo.file, photo.edges_dropped,
-			photo.edges_dropped + int(photo.edges.size())));
-	if (photo.saturated_share > 0.05)
-		log.Warn(fmt::format("{}: {:.0f} % of the edges have a clipped bright side, which narrows their blur: expose less", photo.file, 100 * photo.saturated_share));
+	WarnOfEdges(photo, log);
 }
 
 size_t HashOf(const cv::Mat& grey)
@@ -77,6 +73,15 @@ size_t FirstOf(const std::vector<StateFiles>& states, size_t k)
 	return k;
 }
 
+}
+
+void WarnOfEdges(const Photo& photo, const Log& log)
+{
+	if (photo.edges_dropped > 0)
+		log.Warn(fmt::format("{}: {} of {} edges left out, too blurred or too noisy", photo.file, photo.edges_dropped,
+			photo.edges_dropped + int(photo.edges.size())));
+	if (photo.saturated_share > 0.05)
+		log.Warn(fmt::format("{}: {:.0f} % of the edges have a clipped bright side, which narrows their blur: expose less", photo.file, 100 * photo.saturated_share));
 }
 
 void CheckPitch(double pitch_mm)
@@ -170,11 +175,13 @@ void AddFlatField(Task& task, size_t state, const std::string& file, const Measu
 	const QuietLibraries quiet;
 	if (state >= task.states.size())
 		throw UsageError(fmt::format("`flat_field` {}: there is no state {}; the task has {}, counted from 0", file, state, task.states.size()));
-	const cv::Mat picture = ReadLinear(file, o.transfer);
+	PhotographFacts facts;
+	const cv::Mat picture = ReadLinear(file, o.transfer, &facts);
 	if (picture.cols != task.width || picture.rows != task.height)
 		throw Refused(fmt::format("`flat_field` {}: is {}x{} pixels, the photographs of the board are {}x{}; all must come from the same camera, uncropped and not turned",
 			file, picture.cols, picture.rows, task.width, task.height));
-	task.flat_fields.push_back({ state, file, MeasureFlatField(picture, file) });
+	task.flat_fields.push_back({ state, file, MeasureFlatField(picture, file, facts.floating_point) });
+	WarnOfOtherSetting(task, file, facts, o.log);
 	o.log.Info(fmt::format("{}: flat field of state {}, {} cells", file, task.states[state].name, task.flat_fields.back().patches.size()));
 }
 

@@ -29,6 +29,9 @@ struct MeasuredPhotograph
 /// Throws UsageError for fewer edges than tell anything of a board; 0 is all.
 void CheckEdgesPerPhoto(int edges_per_photo);
 
+/// Warns of edges that were left out, and of clipped ones.
+void WarnOfEdges(const Photo& photo, const Log& log);
+
 /// `grey` receives its brightness in linear light. Throws Error.
 MeasuredPhotograph MeasureOne(const std::string& file, const Board& board, const MeasureOptions& options, cv::Mat& grey);
 

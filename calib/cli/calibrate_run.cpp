@@ -175,7 +175,7 @@ Calibration CalibrateWithPriors(const Task& task, bool priors_from_exif_alone, c
 		// Before the lines of what the photographs lack.
 		const std::string text = e.what();
 		const size_t end = std::min(text.find('\n'), text.size());
-		throw Refused(fmt::format("{}; or what {} is wrong: {}{}", text.substr(0, end), priors_from_exif_alone ? "the photographs' EXIF says of the lens" : "--fix or --prior says",
+		throw Refused(fmt::format("{}; or what {} is wrong: {}{}", text.substr(0, end), priors_from_exif_alone ? "the photographs' EXIF, or the f_number told with them, says of the lens" : "--fix or --prior says",
 			priors_from_exif_alone ? "give --prior focal_length=.. and --prior f_number=.. yourself" : "try without", text.substr(end)));
 	}
 }
@@ -273,9 +273,12 @@ Calibration CalibrateRun::Solve(Task task, double expected_seconds) const
 	for (const FieldPattern& field : fields)
 		for (const std::string& file : ExpandGlobs({ field.pattern }, field.option))
 			AddFlatField(task, field.state, file, measure);
+	task.pitch_from_exif = !words.pitch;
+	const std::optional<NominalFNumber> nominal = FNumberOfReference(task);
 	for (const Prior& prior : PriorsFromExif(task, known.priors))
 	{
-		spdlog::info("EXIF says {} {:g}: taken as known to 10 %", prior.Name(), prior.value);
+		const bool told = prior.quantity == Quantity::F_NUMBER && nominal && nominal->told;
+		spdlog::info("{} {:g}, {}: taken as known to 10 %", prior.Name(), prior.value, told ? "as told" : "as EXIF says");
 		task.priors.push_back(prior);
 	}
 	Progress progress("solving", 0, expected_seconds);

@@ -2,6 +2,7 @@
 
 #include "cli/commands.h"
 
+#include "base/distinct_files.h"
 #include "base/file_set.h"
 #include "base/files.h"
 #include "camera/opencv_yaml.h"
@@ -45,6 +46,8 @@ void Check(const Options& o)
 {
 	if (o.Files().empty())
 		throw UsageError("nothing to write: give one or more of --opencv, --stmap, --rays, --blender, --renderman, --arnold, --colmap");
+	CheckDistinct({ { "--calibration", o.calibration } }, { { "--opencv", o.opencv }, { "--rays", o.rays }, { "--blender", o.blender }, { "--renderman", o.renderman }, { "--arnold", o.arnold },
+		{ "--colmap", o.colmap }, { "--stmap", o.stmap.empty() ? "" : o.stmap + "-undistort.exr" }, { "--stmap", o.stmap.empty() ? "" : o.stmap + "-redistort.exr" } });
 	if (!(o.unit_mm > 0) || !std::isfinite(o.unit_mm))
 		throw UsageError(fmt::format("--unit-mm {}: give the millimetres of a scene unit, such as 1000 for metres", o.unit_mm));
 }

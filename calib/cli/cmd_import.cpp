@@ -5,6 +5,7 @@
 #include <tiltcal/calibrate.h>
 #include "program/program.h"
 #include <tiltcal/error.h>
+#include "base/distinct_files.h"
 #include "base/files.h"
 #include "camera/opencv_yaml.h"
 #include "model/state_names.h"
@@ -41,6 +42,7 @@ void CheckState(const std::string& name)
 void Run(const Options& o)
 {
 	CheckPitch(o.pitch);
+	CheckDistinct({ { "IN", o.in } }, { { "--out", o.out } });
 	const std::string state = WithUnderscores(o.state);
 	if (!state.empty())
 		CheckState(state);

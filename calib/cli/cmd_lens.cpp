@@ -13,8 +13,11 @@
 #include <tiltcal/error.h>
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -88,12 +91,16 @@ GlassState ParseState(const Options& o, const Prescription& glass, const std::st
 	CheckStateName(state.name);
 	double back = o.back ? *o.back : 0;      // 0: by the focus
 	double focus = ParseFocus("--focus", o.focus);
+	std::string by;                          // what says it for this state
 	for (size_t at = colon; at < text.size();)
 	{
 		const size_t end = std::min(text.find(',', at + 1), text.size()), equals = text.find('=', at);
 		const std::string key = text.substr(at + 1, std::min(equals, end) - at - 1), value = equals < end ? text.substr(equals + 1, end - equals - 1) : "";
 		const std::optional<double> number = FiniteNumber(value);
 		at = end;
+		if ((key == "focus" && by == "back") || (key == "back" && by == "focus"))
+			throw UsageError(fmt::format("--state {}: focus and back both say where the sensor is: give one of them", OneLine(text)));
+		by = key == "focus" || key == "back" ? key : by;
 		if (key == "focus")
 		{
 			focus = ParseFocus("--state " + state.name + ": focus", value);
@@ -135,11 +142,32 @@ GlassTask MakeTask(const Options& o)
 	return task;
 }
 
+std::string CameraFile(const std::string& folder, const std::string& state) { return Join(folder, "camera-" + state + ".inc"); }
+
+/// A calibration's cameras are left alone, and those of an earlier run named.
+void CheckFolder(const std::string& folder, const GlassTask& task)
+{
+	namespace fs = std::filesystem;
+	std::error_code none;
+	if (fs::exists(Join(folder, "calibration.json"), none))
+		throw UsageError(fmt::format("--out {}: holds a calibration, whose cameras have such names; give another folder", folder));
+	for (const fs::directory_entry& entry : fs::directory_iterator(folder, none))
+	{
+		const std::string file = entry.path().filename().string();
+		const bool mine = std::any_of(task.states.begin(), task.states.end(), [&](const GlassState& state) { return BaseName(CameraFile(folder, state.name)) == file; });
+		if (!mine && file.rfind("camera-", 0) == 0 && entry.path().extension() == ".inc")
+			spdlog::warn("{}: not of this run; remove it, or it will be taken for this lens's", OneLine(entry.path().string()));
+	}
+}
+
 void Run(const Options& o)
 {
 	const GlassTask task = MakeTask(o);
 	if (!o.out.empty())
+	{
 		PrepareFolder(o.out);
+		CheckFolder(o.out, task);
+	}
 	auto progress = std::make_unique<Progress>("tracing the glass, fitting the camera");
 	const GlassCameras made = MakeGlassCameras(task);
 	progress.reset();
@@ -150,7 +178,7 @@ void Run(const Options& o)
 	FileSet set;
 	set.Text(Join(o.out, "lens.txt"), report);
 	for (size_t s = 0; s < task.states.size(); ++s)
-		set.Text(Join(o.out, "camera-" + task.states[s].name + ".inc"), GlassInc(made, s));
+		set.Text(CameraFile(o.out, task.states[s].name), GlassInc(made, s));
 	set.Commit();
 	fmt::print("written to {}\n", o.out);
 }
@@ -165,8 +193,8 @@ void AddLens(CLI::App& app)
 	c->add_option("--focal-length", o->focal_length, "Scales the whole table to this focal length, mm; left out: as printed");
 	c->add_option("--scale", o->scale, "Scales the whole table by this factor, instead");
 	c->add_option("--f-number", o->f_number, "Closes the stop to this f-number; left out: the table's own stop");
-	c->add_option("--focus", o->focus, "What is sharpest on the axis, mm before the entrance pupil, or infinity")->capture_default_str();
-	c->add_option("--back", o->back, "From the last surface to the sensor, untilted, mm, instead of --focus");
+	CLI::Option* focus = c->add_option("--focus", o->focus, "What is sharpest on the axis, mm before the entrance pupil, or infinity")->capture_default_str();
+	c->add_option("--back", o->back, "From the last surface to the sensor, untilted, mm, instead of --focus")->excludes(focus);
 	c->add_option("--size", o->size, "WIDTHxHEIGHT of the picture, px")->capture_default_str();
 	c->add_option("--pitch", o->pitch, "Side of a pixel on the sensor, mm")->capture_default_str();
 	c->add_option("--pivot", o->pivot, "Where on its axis the lens tilts, mm from the stop towards the scene")->capture_default_str();

@@ -2,6 +2,7 @@
 
 #include "cli/commands.h"
 
+#include "base/distinct_files.h"
 #include "base/files.h"
 #include "exchange/point_lists.h"
 
@@ -32,6 +33,7 @@ CLI::App* AddList(CLI::App& app, const std::string& name, const std::string& wha
 	c->add_option("--out", o->out, "FILE.csv; left out: standard output");
 	c->callback([o, make]
 	{
+		CheckDistinct({ { "--calibration", o->calibration }, { "POINTS", o->points } }, { { "--out", o->out } });
 		const std::string text = make(ReadStateCamera(o->calibration, o->state), o->points);
 		if (o->out.empty())
 			return fmt::print("{}", text);

@@ -4,6 +4,7 @@
 
 #include "program/program.h"
 #include <tiltcal/error.h>
+#include "base/distinct_files.h"
 #include "base/file_set.h"
 #include "base/files.h"
 #include "picture/image_io.h"
@@ -54,6 +55,7 @@ void Run(const Options& o)
 		throw UsageError(fmt::format("--unit-mm {}: give the millimetres of a scene unit, such as 1000 for metres", o.unit_mm));
 	if (o.photo.empty() && !o.overlay.empty())
 		throw UsageError("--overlay: needs --photo, which it is drawn on");
+	CheckDistinct({ { "--calibration", o.calibration }, { "--points", o.points }, { "--photo", o.photo } }, { { "--out", o.out }, { "--overlay", o.overlay } });
 	const StateCamera camera = ReadStateCamera(o.calibration, o.state);
 	const bool through_real = o.real_lens || (!o.thin_lens && TakesRealLens(o.calibration));
 	const std::optional<StateCamera> real = through_real ? ReadRealLensCamera(o.calibration, camera.state) : std::nullopt;

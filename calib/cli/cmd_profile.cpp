@@ -4,6 +4,7 @@
 
 #include "program/program.h"
 #include <tiltcal/error.h>
+#include "base/distinct_files.h"
 #include "base/file_set.h"
 #include "base/files.h"
 #include "picture/image_io.h"
@@ -11,7 +12,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <memory>
 
 namespace tiltcal
@@ -28,10 +28,7 @@ struct Options
 
 void Run(const Options& o)
 {
-	for (const char* const name : { "profile.png", "side-by-side.png" })
-		for (const std::string& given : { o.a, o.b })
-			if (std::error_code none; std::filesystem::equivalent(given, Join(o.out, name), none))
-				throw UsageError(fmt::format("{}: --out {} would write over it; give another folder", given, o.out));
+	CheckDistinct({ { "A", o.a }, { "B", o.b } }, { { "--out", Join(o.out, "profile.png") }, { "--out", Join(o.out, "side-by-side.png") }, { "--json", o.json } });
 	const Match match = ParseMatch(o.match);
 	std::vector<Line> lines;
 	for (const std::string& text : o.lines)

@@ -38,8 +38,8 @@ void Run(const Options& o)
 	}
 	set.Commit();
 	if (LooksTheSameTurned(target))
-		spdlog::warn("this target looks the same when turned by 180 degrees: mark its top in the scene, or choose {}",
-			target.IsCheckerboard() ? "columns + rows odd, such as 12x9" : "asymmetric-circles with an odd number of rows, such as 4x11");
+		spdlog::warn("this target looks the same when turned by 180 degrees: {}", target.kind == TargetKind::ASYMMETRIC_CIRCLES ? "tiltcal does not read it; choose an odd number of rows, such as 4x11"
+			: target.IsCheckerboard() ? "mark its top in the scene, or choose columns + rows odd, such as 12x9" : "mark its top in the scene, or choose asymmetric-circles with an odd number of rows, such as 4x11");
 	fmt::print("{} on {} ({:g} x {:g} mm)\n", Describe(target), page.paper, page.width, page.height);
 	for (const std::string& file : o.out)
 		fmt::print("written to {}\n", file);

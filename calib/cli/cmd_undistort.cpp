@@ -2,6 +2,7 @@
 
 #include "cli/commands.h"
 
+#include "base/distinct_files.h"
 #include "base/file_set.h"
 #include "base/files.h"
 #include "base/plain_text.h"
@@ -70,9 +71,7 @@ std::vector<std::string> Outputs(const Options& o, const std::vector<std::string
 		out.push_back(Join(o.out, fmt::format("{}.{}", Stem(file), o.format)));
 		if (!taken.insert(out.back()).second)
 			throw UsageError(fmt::format("{}: two pictures would become {}; give them separately", file, out.back()));
-		std::error_code none;
-		if (std::filesystem::equivalent(file, out.back(), none))
-			throw UsageError(fmt::format("--out {}: {} would be replaced by its own result; give another folder", o.out, file));
+		CheckDistinct({ { "PICTURE", file } }, { { "--out", out.back() } });
 	}
 	return out;
 }
@@ -92,8 +91,11 @@ void Run(const Options& o)
 	{
 		FileSet set;
 		PhotographFacts facts;
-		WriteLinear(resampling.Of(ReadLinear(files[i], transfer, &facts), files[i]), transfer, outputs[i], set);
+		const cv::Mat linear = ReadLinear(files[i], transfer, &facts);
+		WriteLinear(resampling.Of(linear, files[i]), transfer, outputs[i], set);
 		set.Commit();
+		if (const double lost = BrighterThanWhite(linear); lost > 0 && o.format == "png")
+			spdlog::warn("{}: {:.2g} % of it is brighter than white, which PNG cannot hold: white in {}; --format exr keeps it", files[i], 100 * lost, outputs[i]);
 		if (!facts.left_out.empty())
 			spdlog::warn("{}: not in {}: {} (light alone is read; a compositor's STMap moves every channel: tiltcal export --stmap)", files[i], outputs[i], OneLine(facts.left_out));
 		spdlog::info("{} of {}: {}", i + 1, files.size(), outputs[i]);

@@ -4,6 +4,7 @@
 
 #include "base/files.h"
 #include "base/stopwatch.h"
+#include "calibrate/exif_check.h"
 #include "calibrate/measure_all.h"
 #include "calibrate/next_photographs.h"
 #include "calibrate/coverage.h"
@@ -25,6 +26,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <thread>
 #include <tuple>
 #include <utility>
@@ -89,6 +91,16 @@ private:
 		const std::string text = SpelledAsOptions(event);
 		notes.events.push_back(fmt::format("{:%H:%M:%S} {}", fmt::localtime(std::time(nullptr)), text));
 		run.options.log.Info(notes.events.back());
+	}
+
+	/// Warnings as events, each once.
+	Log Warnings()
+	{
+		return Log([this](Severity severity, const std::string& text)
+		{
+			if (severity == Severity::WARNING && warned.insert(text).second)
+				Tell(text);
+		});
 	}
 
 	static std::vector<StatePatterns> PatternsOf(const std::vector<FieldPattern>& fields)
@@ -167,6 +179,7 @@ private:
 			one.picture = Pack(grey);
 			const Stance s = StanceOf(one.photograph->photo);
 			Tell(fmt::format("{}, state {}: {}; the board: {}, {:.0f} % of the picture's width, blur {:.1f} to {:.1f} px", file, state, CountText(one.photograph->photo), StanceWords(s), 100 * s.share_of_width, s.least_blur, s.most_blur));
+			WarnOfEdges(one.photograph->photo, Warnings());
 			photographs_changed = true;
 		}
 		catch (const Error& e)
@@ -208,15 +221,17 @@ private:
 			}
 		out.task = task.Get();
 		SetStops(out.task, run.options.log);
+		LogFacts(out.task, Warnings());
 		return out;
 	}
 
-	bool NonePhotographed() const
+	/// How many there are of the board.
+	size_t Photographs() const
 	{
+		size_t count = 0;
 		for (const StateFiles& state : PhotographsAlone())
-			if (!state.files.empty())
-				return false;
-		return true;
+			count += state.files.size();
+		return count;
 	}
 
 	/// For EXIF.
@@ -237,11 +252,12 @@ private:
 	{
 		changed = photographs_changed = usable = false;
 		why_not.clear();
+		why_code = EXIT_REFUSED;
 		Assembled now;
 		bool is_writing = false;
 		try
 		{
-			if (NonePhotographed())
+			if (Photographs() == 0)
 				return WriteWaiting({});
 			now = Assemble();
 			if (now.photographs == 0)
@@ -279,7 +295,9 @@ private:
 				look_again = std::chrono::steady_clock::now() + ONCE_MORE;
 			}
 			why_not = e.what();
-			Tell(fmt::format("no calibration of {} photograph{} yet: {}", now.photographs, now.photographs == 1 ? "" : "s", why_not.substr(0, why_not.find('\n'))));
+			why_code = e.Code();
+			const size_t count = Photographs();
+			Tell(fmt::format("no calibration of {} photograph{} yet: {}", count, count == 1 ? "" : "s", why_not.substr(0, why_not.find('\n'))));
 			WriteWaiting(now.task);
 		}
 	}
@@ -334,6 +352,8 @@ private:
 		notes.lacking.clear();
 		for (const std::string& line : WhatPhotographsLack(task.states.empty() ? EmptyTask() : task))
 			notes.lacking.push_back(SpelledAsOptions(line));
+		std::error_code none;
+		notes.beside_earlier = std::filesystem::exists(Join(run.words.out, "calibration.json"), none);
 		WriteText(Join(run.words.out, "report.html"), WaitingPage(task, notes, TimeOfDay()));
 	}
 
@@ -358,6 +378,8 @@ private:
 		{
 			if (!changed && why_not.empty())
 				WriteWaiting({});
+			if (why_code == EXIT_USAGE)
+				throw UsageError(why_not);
 			throw Refused(why_not.empty() ? "--watch: no photograph of the board has come" : why_not);
 		}
 		std::vector<std::vector<const PackedPicture*>> packed;
@@ -378,11 +400,13 @@ private:
 	WatchedFiles files, field_files;
 	std::map<std::string, Measured> measured;
 	std::map<std::string, FileStamp> fields_seen;
+	std::set<std::string> warned;
 	WatchNotes notes;
 	bool changed = false, photographs_changed = false, usable = false;
 	enum class Again { NOT, LATER, DONE } again = Again::NOT;
 	std::chrono::steady_clock::time_point look_again;
 	std::string why_not;
+	int why_code = EXIT_REFUSED;
 	double last_seconds = 0;
 	std::optional<Calibration> last;
 	std::vector<std::vector<PackedPicture>> last_packed;

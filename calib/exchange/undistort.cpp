@@ -116,6 +116,16 @@ cv::Mat Resampling::Of(const cv::Mat& linear, const std::string& file) const
 	return out;
 }
 
+double BrighterThanWhite(const cv::Mat& linear)
+{
+	std::vector<cv::Mat> channels;
+	cv::split(linear, channels);
+	cv::Mat beyond;
+	for (const cv::Mat& channel : channels)
+		beyond = beyond.empty() ? cv::Mat(channel > 1) : cv::Mat(beyond | (channel > 1));
+	return cv::countNonZero(beyond) / double(linear.total());
+}
+
 void WriteLinear(const cv::Mat& linear, const Transfer& transfer, const std::string& file, FileSet& set)
 {
 	const std::string suffix = std::filesystem::path(file).extension().string();

@@ -40,6 +40,9 @@ private:
 	std::string expected;
 };
 
+/// The share of the pixels that have a channel above 1, which PNG cannot hold.
+double BrighterThanWhite(const cv::Mat& linear);
+
 /// `linear` as a PNG of 16 bits with the transfer curve of `transfer`, or as OpenEXR of 32 bit floats, by the suffix of `file`. Throws
 /// UsageError for another suffix.
 void WriteLinear(const cv::Mat& linear, const Transfer& transfer, const std::string& file, FileSet& set);

@@ -208,7 +208,7 @@ void MeasureWhite(const cv::Mat& linear, const Board& board, Photo& photo)
 		MeasureSquares({ Luminance(linear), ClippedPixels(linear) }, board, photo);
 }
 
-std::vector<BrightPatch> MeasureFlatField(const cv::Mat& linear, const std::string& file)
+std::vector<BrightPatch> MeasureFlatField(const cv::Mat& linear, const std::string& file, bool floating_point)
 {
 	const Pictures pictures{ Luminance(linear), ClippedField(linear) };
 	const int cell = std::max(4, linear.cols / 40), columns = linear.cols / cell, rows = linear.rows / cell;
@@ -232,7 +232,9 @@ std::vector<BrightPatch> MeasureFlatField(const cv::Mat& linear, const std::stri
 	double brightest = 0;
 	for (const BrightPatch& p : patches)
 		brightest = std::max(brightest, p.value);
-	if (brightest < 0.01)
+	if (floating_point && !(brightest > 0))
+		throw Refused(fmt::format("`flat_field` {}: is black", file));
+	if (!floating_point && brightest < 0.01)
 		throw Refused(fmt::format("`flat_field` {}: the brightest cell is {:.4f} of full scale: too dark to measure; expose more", file, brightest));
 	if (ShowsAPattern(all, columns))
 		throw Refused(fmt::format("`flat_field` {}: shows a pattern, not an evenly lit plain surface: photograph a white wall or paper out of focus, or leave it out", file));

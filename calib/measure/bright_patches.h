@@ -22,8 +22,9 @@ namespace tiltcal
 void MeasureWhite(const cv::Mat& linear, const Board& board, Photo& photo);
 
 /// A photograph of an evenly lit plain surface in whole cells of 1/40 of its width, from the top left. Clipped cells are left
-/// out. Throws Refused when those are most of them, or when the picture is dark. `file` is named.
-std::vector<BrightPatch> MeasureFlatField(const cv::Mat& linear, const std::string& file);
+/// out. Throws Refused when those are most of them, or when the picture is dark, which only one with a full scale can be:
+/// not in `floating_point`. `file` is named.
+std::vector<BrightPatch> MeasureFlatField(const cv::Mat& linear, const std::string& file, bool floating_point = false);
 
 }
 

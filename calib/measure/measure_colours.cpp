@@ -6,6 +6,7 @@
 #include "model/footprint.h"
 #include "edge/soft_radius.h"
 #include "measure/measure_edge.h"
+#include "picture/image_io.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,13 +20,14 @@ namespace
 /// Of a photograph: three fits each, so that a calibration takes about a quarter longer.
 const size_t EDGES = 24;
 
-/// Channels of a photograph in colour differ by noise at least.
-bool ChannelsDiffer(const std::vector<cv::Mat>& channels)
+/// Channels of a photograph in colour differ by noise at least. `white`: the light that is white.
+bool ChannelsDiffer(const std::vector<cv::Mat>& channels, double white)
 {
+	const float least = float(0.002 * white);
 	size_t different = 0, all = 0;
 	for (int y = 0; y < channels[0].rows; y += 3)
 		for (int x = 0; x < channels[0].cols; x += 3, ++all)
-			different += std::abs(channels[2].at<float>(y, x) - channels[1].at<float>(y, x)) + std::abs(channels[0].at<float>(y, x) - channels[1].at<float>(y, x)) > 0.002f;
+			different += std::abs(channels[2].at<float>(y, x) - channels[1].at<float>(y, x)) + std::abs(channels[0].at<float>(y, x) - channels[1].at<float>(y, x)) > least;
 	return 1000 * different > all;
 }
 
@@ -73,7 +75,7 @@ void MeasureColours(const cv::Mat& linear, const Board& board, Photo& photo)
 		return;
 	std::vector<cv::Mat> channels;
 	cv::split(linear, channels);
-	photo.coloured = ChannelsDiffer(channels);
+	photo.coloured = ChannelsDiffer(channels, photo.facts.floating_point ? BrightestHundredth(linear) : 1);
 	if (!photo.coloured || !board.IsCheckerboard() || photo.facts.subsampled_colour)
 		return;
 	const CornerGrid grid(photo, board);

@@ -50,6 +50,17 @@ double FocalPlaneUnit(const Exiv2::ExifData& exif)
 	return unit == 3 ? 10 : unit == 4 ? 1 : unit == 5 ? 0.001 : 25.4;
 }
 
+/// Some cameras write the resolution of another picture or sensor. FocalLengthIn35mmFilm is by the diagonal, 43.27 mm (CIPA DCG-001), by some
+/// makers by the width, which is 4 % more or less; both focal lengths are rounded, to whole millimetres where they are short.
+bool Contradicted(const Exiv2::ExifData& exif, double pitch, double width)
+{
+	const auto f = Positive(exif, "Exif.Photo.FocalLength", 1e5), f35 = Positive(exif, "Exif.Photo.FocalLengthIn35mmFilm", 1e5), height = Positive(exif, "Exif.Photo.PixelYDimension", 1e6);
+	if (!f || !f35 || !height)
+		return false;
+	const double by_pitch = 43.27 / (std::hypot(width, *height) * pitch), by_lengths = *f35 / *f;
+	return std::abs(std::log(by_pitch / by_lengths)) > 0.1 + 0.5 / *f + 0.5 / *f35;
+}
+
 std::optional<double> Pitch(const Exiv2::ExifData& exif, int width)
 {
 	const auto x = Positive(exif, "Exif.Photo.FocalPlaneXResolution", 1e9), y = Positive(exif, "Exif.Photo.FocalPlaneYResolution", 1e9);
@@ -58,7 +69,7 @@ std::optional<double> Pitch(const Exiv2::ExifData& exif, int width)
 	if (!x || !y || std::abs(*x / *y - 1) > 0.01 || !exif_width || (width > 0 && std::lround(*exif_width) != width))
 		return {};
 	const double pitch = FocalPlaneUnit(exif) / *x;
-	return pitch > 1e-4 && pitch < 1 ? std::optional(pitch) : std::nullopt;
+	return pitch > 1e-4 && pitch < 1 && !Contradicted(exif, pitch, *exif_width) ? std::optional(pitch) : std::nullopt;
 }
 
 PhotographFacts FromExif(const Exiv2::ExifData& exif, int width)

@@ -27,13 +27,15 @@ namespace tiltcal
 namespace
 {
 
-cv::Mat Decode(const PictureFile& picture, std::string& left_out)
+cv::Mat Decode(const PictureFile& picture, std::string& left_out, bool& subsampled_colour)
 {
 	switch (picture.format)
 	{
 	case PictureFormat::PNG: return DecodePng(picture, &left_out);
-	case PictureFormat::JPEG: return DecodeJpeg(picture);
-	case PictureFormat::TIFF: return DecodeTiff(picture, &left_out);
+	case PictureFormat::JPEG:
+		subsampled_colour = HasSubsampledColour(picture);
+		return DecodeJpeg(picture);
+	case PictureFormat::TIFF: return DecodeTiff(picture, &left_out, &subsampled_colour);
 	case PictureFormat::EXR: break;
 	}
 	return DecodeExr(picture, &left_out);
@@ -80,12 +82,14 @@ cv::Mat ReadAndLinearise(const std::string& file, const Transfer& transfer, Phot
 {
 	const PictureFile picture = ReadPictureFile(file);
 	std::string left_out;
-	cv::Mat image = Decode(picture, left_out);
+	bool subsampled_colour = false;
+	cv::Mat image = Decode(picture, left_out, subsampled_colour);
 	if (facts)
 	{
 		*facts = ReadFacts(picture, image.cols);
 		facts->left_out = left_out;
-		facts->subsampled_colour = picture.format == PictureFormat::JPEG && HasSubsampledColour(picture);
+		facts->subsampled_colour = subsampled_colour;
+		facts->floating_point = image.depth() != CV_8U && image.depth() != CV_16U;
 	}
 	switch (image.depth())
 	{
@@ -139,10 +143,6 @@ cv::Mat Luminance(const cv::Mat& linear)
 	return grey;
 }
 
-namespace
-{
-
-/// The light that a share of the pixels exceeds not.
 double LightQuantile(const cv::Mat& linear, double share)
 {
 	std::vector<float> values;
@@ -154,8 +154,6 @@ double LightQuantile(const cv::Mat& linear, double share)
 	const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * double(values.size()));
 	std::nth_element(values.begin(), at, values.end());
 	return *at;
-}
-
 }
 
 double BrightestHundredth(const cv::Mat& linear) { return LightQuantile(linear, 0.99); }

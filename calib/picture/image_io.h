@@ -24,7 +24,7 @@ struct PhotographFacts;
 /// applied, in any format: pixels are where the sensor had them.
 /// Throws FileError, and nothing else, for anything that is not a whole picture of these
 /// (picture_file.h has the limits): also CMYK, NaN or infinite pixels, negative light.
-/// `facts`, when given, receives what EXIF says, and which channels are left out.
+/// `facts`, when given, receives what EXIF says, which channels are left out, and how light and colour are stored.
 cv::Mat ReadLinear(const std::string& file, const Transfer& transfer, PhotographFacts* facts = nullptr);
 
 /// Luminance (Rec. 709 / sRGB primaries) as CV_32FC1.
@@ -33,7 +33,10 @@ cv::Mat Luminance(const cv::Mat& linear);
 /// Value of a CV_32FC1 picture at a point in it (0 <= x <= cols - 1, 0 <= y <= rows - 1), between its four pixels.
 double Bilinear(const cv::Mat& image, double x, double y);
 
-/// The light that 1 % of the pixels exceed; of all channels, a part of the pixels stands for all. CV_32F.
+/// The light that a share of the pixels exceeds not; of all channels, a part of the pixels stands for all. CV_32F.
+double LightQuantile(const cv::Mat& linear, double share);
+
+/// The light that 1 % of the pixels exceed, likewise.
 double BrightestHundredth(const cv::Mat& linear);
 
 /// What to show a picture with: 1, but where most of it is brighter than white or all of it is dark, as the counts of a sensor and other units are, what

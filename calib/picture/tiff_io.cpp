@@ -125,8 +125,27 @@ void CheckKind(const std::string& file, Layout& l)
 		throw FileError(fmt::format("{}: TIFF compression {} is not read; save it without compression, or with LZW or Deflate", file, l.compression));
 }
 
+/// Raw files of Nikon and Adobe (NEF, DNG) are TIFFs whose first picture is a small preview.
+void RefusePreview(const std::string& file, TIFF* tiff)
+{
+	uint32_t kind = 0;
+	void* version = nullptr;
+	TIFFGetFieldDefaulted(tiff, TIFFTAG_SUBFILETYPE, &kind);
+	if ((kind & FILETYPE_REDUCEDIMAGE) != 0 || TIFFGetField(tiff, TIFFTAG_DNGVERSION, &version))
+		throw FileError(fmt::format("{}: is a raw file, or begins with a preview of reduced size: develop it to a TIFF of 16 bits, in full size and without sharpening", file));
+}
+
+bool HasSubsampledColour(TIFF* tiff)
+{
+	uint16_t photometric = 0, across = 1, down = 1;
+	TIFFGetFieldDefaulted(tiff, TIFFTAG_PHOTOMETRIC, &photometric);
+	TIFFGetFieldDefaulted(tiff, TIFFTAG_YCBCRSUBSAMPLING, &across, &down);
+	return photometric == PHOTOMETRIC_YCBCR && (across > 1 || down > 1);
+}
+
 Layout ReadLayout(const std::string& file, TIFF* tiff)
 {
+	RefusePreview(file, tiff);
 	Layout l;
 	TIFFGetField(tiff, TIFFTAG_IMAGEWIDTH, &l.width);
 	TIFFGetField(tiff, TIFFTAG_IMAGELENGTH, &l.height);
@@ -212,7 +231,7 @@ cv::Mat Decode(const PictureFile& picture, TIFF* tiff, const std::string& error,
 
 }
 
-cv::Mat DecodeTiff(const PictureFile& picture, std::string* left_out)
+cv::Mat DecodeTiff(const PictureFile& picture, std::string* left_out, bool* subsampled_colour)
 {
 	const WhileAny<Handlers> handlers;
 	std::string error;
@@ -229,6 +248,8 @@ cv::Mat DecodeTiff(const PictureFile& picture, std::string* left_out)
 		first_error = nullptr;
 		throw FileError(fmt::format("{}: damaged TIFF: {}; copy it again", picture.name, error));
 	}
+	if (subsampled_colour)
+		*subsampled_colour = HasSubsampledColour(tiff.get());
 	return Decode(picture, tiff.get(), error, left_out);
 }
 

@@ -65,6 +65,9 @@ void CompareWhole(const cv::Mat& a, const cv::Mat& b, Comparison& c)
 	c.rms_error = std::sqrt(squares / double(a.total()));
 }
 
+/// Light in counts of a sensor or another unit, where most is brighter than white, would be white all over.
+double GainOf(const cv::Mat& linear) { return LightQuantile(linear, 0.5) > 1 ? DisplayGain(linear) : 1; }
+
 const char* MatchName(Match match)
 {
 	return match == Match::NONE ? "none" : match == Match::GAIN ? "gain" : "shading";
@@ -98,11 +101,12 @@ Match ParseMatch(const std::string& text)
 
 Comparison Compare(const cv::Mat& a, const cv::Mat& b, const std::vector<Line>& lines, Match match)
 {
-	const cv::Mat ya = Luminance(a), yb = Luminance(b);
-	for (const Line& line : lines)
-		CheckInside(line, ya.size());
 	Comparison c;
 	c.match = match;
+	c.gain = GainOf(Luminance(a));
+	const cv::Mat ya = c.gain * Luminance(a), yb = c.gain * Luminance(b);
+	for (const Line& line : lines)
+		CheckInside(line, ya.size());
 	if (match != Match::NONE)
 		c.shading = FitShading(ya, yb, match == Match::GAIN ? 0 : SHADING_ORDER);
 	c.matched = match == Match::NONE ? yb : ApplyShading(yb, c.shading);
@@ -115,6 +119,8 @@ Comparison Compare(const cv::Mat& a, const cv::Mat& b, const std::vector<Line>& 
 std::string ComparisonText(const Comparison& c)
 {
 	std::string out;
+	if (c.gain != 1)
+		out += fmt::format("light of another unit: both are compared at {:.5g} times theirs, which makes A's brightest hundredth white\n", c.gain);
 	switch (c.match)
 	{
 	case Match::NONE:
@@ -139,6 +145,7 @@ std::string ComparisonJson(const Comparison& c, const ComparedFiles& files)
 	nlohmann::ordered_json json;
 	json["a"] = files.a;
 	json["b"] = files.b;
+	json["gain"] = c.gain;
 	json["match"] = MatchName(c.match);
 	json["shading"] = { { "order", c.shading.order }, { "coefficients", c.shading.coefficients } };
 	json["lines"] = nlohmann::ordered_json::array();

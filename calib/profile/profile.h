@@ -48,6 +48,7 @@ Match ParseMatch(const std::string& text);
 struct Comparison
 {
 	Match match = Match::NONE;
+	double gain = 1;                  ///< of both, before anything else: 1, but for light of another unit, most of it brighter than white, what makes A's brightest hundredth white
 	Shading shading;                  ///< B was multiplied by it
 	std::vector<LineProfile> lines;
 	double mean_abs_error = 0, rms_error = 0;   ///< over the whole picture

@@ -67,10 +67,10 @@ void PlotProfiles(const Comparison& c, const ComparedFiles& files, const std::ve
 	Plot(set, Join(folder, "profile.png"), script, 1100, 80 + 330 * static_cast<int>(c.lines.size()));
 }
 
-cv::Mat WithLines(const cv::Mat& linear, const Comparison& c)
+cv::Mat WithLines(const cv::Mat& linear, double gain, const Comparison& c)
 {
 	cv::Mat picture;
-	cv::Mat display = ToDisplay(linear);
+	cv::Mat display = ToDisplay(linear, gain);
 	if (display.channels() == 1)
 		cv::cvtColor(display, picture, cv::COLOR_GRAY2BGR);
 	else
@@ -103,7 +103,10 @@ void WriteComparison(const Comparison& c, const cv::Mat& a, const ComparedFiles&
 		set.Remove(Join(folder, "profile.png"));
 	cv::Mat both;
 	const cv::Mat gap(a.rows, std::max(4, a.cols / 100), CV_8UC3, cv::Scalar::all(255));
-	cv::hconcat(std::vector<cv::Mat>{ WithLines(Luminance(a), c), gap, WithLines(c.matched, c) }, both);
+	// One gain: what is brighter looks so.
+	const cv::Mat as_compared = c.gain * Luminance(a);
+	const double gain = DisplayGain(as_compared);
+	cv::hconcat(std::vector<cv::Mat>{ WithLines(as_compared, gain, c), gap, WithLines(c.matched, gain, c) }, both);
 	set.Text(Join(folder, "side-by-side.png"), PngOf(both));
 }
 

@@ -31,6 +31,14 @@ void Basis(int order, double x, double y, double* terms)
 
 double Normalised(double position, int count) { return count > 1 ? 2 * position / (count - 1) - 1 : 0; }
 
+/// Above it is what may be clipped. Light brighter than white is not: it is of floating point.
+double WhiteOf(const cv::Mat& linear)
+{
+	double most = 0;
+	cv::minMaxLoc(linear, nullptr, &most);
+	return most > 1 ? HUGE_VAL : 0.99;
+}
+
 struct Ratios
 {
 	Eigen::MatrixXd terms;
@@ -47,6 +55,7 @@ Ratios Collect(const cv::Mat& a, const cv::Mat& b, int order)
 	cv::resize(b, small_b, size, 0, 0, cv::INTER_AREA);
 	double most = 0;
 	cv::minMaxLoc(small_b, nullptr, &most);
+	const double white_a = WhiteOf(a), white_b = WhiteOf(b);
 	std::vector<double> ratios;
 	std::vector<double> terms;
 	const size_t n = static_cast<size_t>(Count(order));
@@ -54,7 +63,7 @@ Ratios Collect(const cv::Mat& a, const cv::Mat& b, int order)
 		for (int x = 0; x < size.width; ++x)
 		{
 			const double va = small_a.at<float>(y, x), vb = small_b.at<float>(y, x);
-			if (vb <= 0 || vb < 0.02 * most || va <= 0 || va > 0.99 || vb > 0.99)
+			if (vb <= 0 || vb < 0.02 * most || va <= 0 || va > white_a || vb > white_b)
 				continue;
 			ratios.push_back(va / vb);
 			terms.resize(terms.size() + n);

@@ -160,7 +160,9 @@ void CatchInterrupts(Second second)
 	second_ends = second == Second::ENDS;
 	catching = !second_ends;
 	for (const int signal : INTERRUPTS)
-		std::signal(signal, NoteInterrupt);
+		// nohup's stays; a script's background jobs ignore Ctrl-C, and are still to be ended by `kill -INT`.
+		if (std::signal(signal, NoteInterrupt) == SIG_IGN && signal == SIGHUP)
+			std::signal(signal, SIG_IGN);
 }
 
 bool WasInterrupted() { return interrupted != 0; }

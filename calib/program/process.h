@@ -31,7 +31,7 @@ void EndAtInterrupts(const std::string& name);
 enum class Second { NOTHING_MORE, ENDS };
 
 /// From now on interrupts are noticed by RunProcess and CheckInterrupt instead of ending the program; where a second one ends it, by
-/// CheckInterrupt and WasInterrupted alone.
+/// CheckInterrupt and WasInterrupted alone. SIGHUP stays ignored where it was, as by nohup.
 void CatchInterrupts(Second second = Second::NOTHING_MORE);
 
 /// Whether there was one.

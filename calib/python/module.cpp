@@ -153,7 +153,7 @@ using AtStop = std::tuple<std::string, double, std::vector<std::filesystem::path
 
 Calibration CalibrateFiles(const std::vector<std::filesystem::path>& untilted, const Photographs& tilted, const std::string& board, double square_mm, double pitch_mm,
 	const std::string& target, double circle_diameter_mm, const std::string& model, const std::string& poses, const std::string& transfer, int edges_per_photo,
-	int threads, const std::optional<double>& f_number, const std::vector<AtStop>& stopped, const py::object& progress)
+	int threads, const std::optional<double>& f_number, const std::vector<AtStop>& stopped, bool any_orientation, const py::object& progress)
 {
 	const auto names = [](const std::vector<std::filesystem::path>& files) { return std::vector<std::string>(files.begin(), files.end()); };
 	std::vector<StateFiles> states{ { "untilted", names(untilted), f_number } };
@@ -169,6 +169,7 @@ Calibration CalibrateFiles(const std::vector<std::filesystem::path>& untilted, c
 	measure.transfer = ParseTransfer(transfer);
 	measure.edges_per_photo = edges_per_photo;
 	measure.threads = threads;
+	measure.any_orientation = any_orientation;
 	measure.log = LogTo(progress);
 	CalibrateOptions solve;
 	solve.model = ParseModel(model);
@@ -247,10 +248,10 @@ void AddCalibration(py::module_& m)
 		}, py::arg("state") = "", py::arg("distorted") = true, "distorted=False: the best camera without distortion");
 	m.def("calibrate", &CalibrateFiles, py::arg("untilted"), py::arg("tilted"), py::kw_only(), py::arg("board"), py::arg("square_mm"), py::arg("pitch_mm"),
 		py::arg("target") = "checkerboard", py::arg("circle_diameter_mm") = 0.0, py::arg("model") = "auto", py::arg("poses") = "auto", py::arg("transfer") = "srgb",
-		py::arg("edges_per_photo") = 0, py::arg("threads") = 0, py::arg("f_number") = py::none(), py::arg("stopped") = std::vector<AtStop>(), py::arg("progress") = py::none(),
+		py::arg("edges_per_photo") = 0, py::arg("threads") = 0, py::arg("f_number") = py::none(), py::arg("stopped") = std::vector<AtStop>(), py::arg("any_orientation") = false, py::arg("progress") = py::none(),
 		"untilted: files; tilted: {state: files}; board: '12x9' squares or circles of square_mm; pitch_mm: distance of the sensor's pixels.\n"
 		"stopped: [(state, f_number, files)], photographs of these states at other f-numbers; f_number: of untilted and tilted, else EXIF's.\n"
-		"The other words are those of `tiltcal calibrate --help`. progress: called with every message. Raises tiltcal.Error, which names the\n"
+		"The other words are those of `tiltcal calibrate --help`; fix, prior, effects, flat_field and refine are the program's alone. progress: called with every message. Raises tiltcal.Error, which names the\n"
 		"photograph or argument at fault.");
 }
 

@@ -194,8 +194,10 @@ std::string WaitingPage(const Task& task, const WatchNotes& notes, const std::st
 	for (const State& state : task.states)
 		photographs += state.photos.size();
 	std::string out = PageHead(notes.on) + "<h1>Calibration of a tilted lens</h1>\n<div class=\"verdict poor\"><b>No calibration yet</b>";
-	out += photographs ? ": " + HtmlText(notes.waiting) : std::string(": waiting for the first photograph.");
+	out += photographs || !notes.waiting.empty() ? ": " + HtmlText(notes.waiting) : std::string(": waiting for the first photograph.");
 	out += "</div>\n";
+	if (notes.beside_earlier)
+		out += "<p>The other files of this folder are of an earlier calibration: the next one replaces them.</p>\n";
 	if (!notes.lacking.empty())
 		out += "<h2>What to photograph next</h2>\n" + List(notes.lacking, "ul");
 	out += "<h2>What was seen</h2>\n";

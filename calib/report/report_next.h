@@ -29,6 +29,7 @@ struct WatchNotes
 	std::vector<std::string> events;          ///< the newest last
 	std::string waiting;                      ///< no calibration yet: why
 	std::vector<std::string> lacking;         ///< what to do about it
+	bool beside_earlier = false;              ///< ... and the folder holds a calibration of before
 };
 
 /// For report.txt and the terminal: what is missing, and how to take the next photographs.

@@ -29,4 +29,8 @@ for lens in real thin; do
 	"$tiltcal" pose --$lens-lens --calibration "$calibration/calibration.json" --state "$state" --points points.csv --photo "$photo" --overlay $lens.png --out $lens-photo.inc >/dev/null
 done
 ! cmp -s real.png thin.png || { echo "one overlay for two lenses"; exit 1; }
+# A photograph is not drawn over.
+cp "$photo" mine.jpg
+if "$tiltcal" pose --calibration "$calibration/calibration.json" --state "$state" --points points.csv --photo mine.jpg --overlay ./mine.jpg --out x.inc 2>err; then exit 1; fi
+grep -q -- '--overlay ./mine.jpg: would write over what --photo reads' err && cmp "$photo" mine.jpg && [ ! -e x.inc ]
 grep -q 'aberrations {' real-photo.inc && ! grep -q 'aberrations {' thin-photo.inc

@@ -64,6 +64,8 @@ refuses("nowhere.jpg", lambda: tiltcal.calibrate(["nowhere.jpg"], {"plus5": [pho
 refuses("plus5 has no photographs", lambda: tiltcal.calibrate([photos / "untilted-1.jpg"], {"plus5": []}, **few))
 refuses("`state` untilted:f_number=N", lambda: tiltcal.calibrate([photos / "untilted-1.jpg"], {}, stopped=[("untilted", 8, [photos / "untilted-2.jpg"])], **few))
 refuses("`edges_per_photo` 1: give 0", lambda: tiltcal.calibrate([photos / "untilted-1.jpg"], {}, **{**few, "edges_per_photo": 1}))
+# Turned the other way round it is read by whom that does not matter to.
+assert tiltcal.calibrate([photos / f"untilted-{k}.jpg" for k in (1, 2, 3)], {}, any_orientation=True, **few).states == ["untilted"]
 refuses("f_number", lambda: tiltcal.calibrate([photos / "untilted-1.jpg"], {}, f_number=0, **few))
 refuses("`model` 'thin'", lambda: tiltcal.calibrate([photos / "untilted-1.jpg"], {}, **{**few, "model": "thin"}))
 refuses("nowhere.json", lambda: tiltcal.read_camera("nowhere.json"))

@@ -59,6 +59,9 @@ TEST(BrightPatches, ClippedAndDarkFlatFieldsAreRefused)
 	EXPECT_EQ(MeasureFlatField(good, "x").size(), 40u * 30u);
 	EXPECT_EQ(code(Wall(3, 1)), EXIT_REFUSED);
 	EXPECT_EQ(code(0.001 * good), EXIT_REFUSED);
+	// Floating point has no full scale to be dark beside.
+	EXPECT_EQ(MeasureFlatField(0.001 * good, "x", true).size(), 40u * 30u);
+	EXPECT_EQ(CodeOf([&] { MeasureFlatField(cv::Mat::zeros(300, 400, CV_32FC1), "x", true); }), EXIT_REFUSED);
 	// One channel that is clipped spoils the colour, and with it the luminance.
 	cv::Mat red;
 	cv::merge(std::vector<cv::Mat>{ 0.4 * good, 0.4 * good, Wall(3, 1) }, red);

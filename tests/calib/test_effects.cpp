@@ -262,6 +262,19 @@ TEST(Chromatic, SubsampledColoursTellNothing)
 	}
 }
 
+// Light in floating point may be of any unit.
+TEST(Chromatic, DarkFloatingPointIsNoGrey)
+{
+	const Board board = ParseBoard("9x7", 30);
+	ColourPicture p = TakeColours(10, 2e-3, -1e-3);
+	p.picture *= 1e-4;
+	MeasureColours(p.picture, board, p.photo);
+	EXPECT_FALSE(p.photo.coloured) << "less than a code of 8 bits";
+	p.photo.facts.floating_point = true;
+	MeasureColours(p.picture, board, p.photo);
+	EXPECT_TRUE(p.photo.coloured);
+}
+
 TEST(Chromatic, GreyPicturesTellNothing)
 {
 	const Board board = ParseBoard("9x7", 30);

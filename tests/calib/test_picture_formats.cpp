@@ -20,6 +20,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <functional>
 #include <filesystem>
 #include <fstream>
 
@@ -100,6 +101,59 @@ void WriteDoubles(const std::string& file, std::array<double, 3> colours)
 	TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
 	TIFFWriteScanline(tiff, colours.data(), 0, 0);
 	TIFFClose(tiff);
+}
+
+/// 16 x 16 pixels of one colour; `fill` sets further tags.
+void WriteTiff(const std::string& file, const std::function<void(TIFF*)>& fill)
+{
+	TIFF* tiff = TIFFOpen(file.c_str(), "w");
+	for (const uint32_t tag : { TIFFTAG_IMAGEWIDTH, TIFFTAG_IMAGELENGTH, TIFFTAG_ROWSPERSTRIP })
+		TIFFSetField(tiff, tag, 16);
+	TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, 8);
+	TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, 3);
+	TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_RGB);
+	TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
+	fill(tiff);
+	std::vector<unsigned char> row(48, 100);
+	for (uint32_t y = 0; y < 16; ++y)
+		TIFFWriteScanline(tiff, row.data(), y, 0);
+	TIFFClose(tiff);
+}
+
+// Raw files of Nikon and Adobe are TIFFs whose first picture is a preview.
+TEST_F(PictureFormats, PreviewsOfRawFilesAreRefused)
+{
+	WriteTiff(At("whole.tif"), [](TIFF*) {});
+	EXPECT_EQ(Refusal("whole.tif"), "");
+	WriteTiff(At("raw.nef"), [](TIFF* tiff) { TIFFSetField(tiff, TIFFTAG_SUBFILETYPE, FILETYPE_REDUCEDIMAGE); });
+	EXPECT_THAT(Refusal("raw.nef"), HasSubstr("raw file"));
+	WriteTiff(At("raw.dng"), [](TIFF* tiff) { TIFFSetField(tiff, TIFFTAG_DNGVERSION, "\1\4\0\0"); });
+	EXPECT_THAT(Refusal("raw.dng"), HasSubstr("develop it"));
+}
+
+TEST_F(PictureFormats, HowLightAndColourAreStoredIsTold)
+{
+	const auto jpeg = [&](const char* name, uint16_t step)
+	{
+		WriteTiff(At(name), [&](TIFF* tiff)
+		{
+			TIFFSetField(tiff, TIFFTAG_COMPRESSION, COMPRESSION_JPEG);
+			TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_YCBCR);
+			TIFFSetField(tiff, TIFFTAG_YCBCRSUBSAMPLING, step, step);
+			TIFFSetField(tiff, TIFFTAG_JPEGCOLORMODE, JPEGCOLORMODE_RGB);
+		});
+		PhotographFacts facts;
+		ReadLinear(At(name), Transfer(), &facts);
+		EXPECT_FALSE(facts.floating_point) << name;
+		return facts.subsampled_colour;
+	};
+	EXPECT_TRUE(jpeg("half.tif", 2));
+	EXPECT_FALSE(jpeg("full.tif", 1));
+	PhotographFacts facts;
+	cv::imwrite(At("float.tif"), Checkerboard());
+	ReadLinear(At("float.tif"), Transfer(), &facts);
+	EXPECT_TRUE(facts.floating_point);
+	EXPECT_FALSE(facts.subsampled_colour);
 }
 
 TEST_F(PictureFormats, ColoursKeepTheirOrder)
@@ -237,6 +291,41 @@ TEST_F(PictureFormats, ExifIsReadFromEveryKindThatHasIt)
 	to->writeMetadata();
 	EXPECT_EQ(ReadFacts(At("half.jpg")).focal_length_mm, 45.0);
 	EXPECT_FALSE(ReadFacts(At("half.jpg")).pitch_mm);
+}
+
+// Some cameras write the resolution of another sensor: a full frame of 6240 x 4160 px at 6673.8 an inch would be 23.7 mm wide.
+TEST_F(PictureFormats, APitchThatTheFocalLengthsContradictIsNone)
+{
+	const auto pitch = [&](uint32_t resolution, uint16_t f35)
+	{
+		const auto image = Exiv2::ImageFactory::open(At("exif.jpg"));
+		image->readMetadata();
+		Exiv2::ExifData& exif = image->exifData();
+		exif["Exif.Photo.PixelXDimension"] = uint32_t(6240);
+		exif["Exif.Photo.PixelYDimension"] = uint32_t(4160);
+		for (const char* const key : { "Exif.Photo.FocalPlaneXResolution", "Exif.Photo.FocalPlaneYResolution" })
+			exif[key] = Exiv2::URational(resolution, 10);
+		exif["Exif.Photo.FocalLengthIn35mmFilm"] = f35;
+		image->writeMetadata();
+		return ReadFacts(ReadPictureFile(At("exif.jpg")), 6240).pitch_mm.value_or(0);
+	};
+	EXPECT_EQ(pitch(66738, 45), 0);
+	EXPECT_NEAR(pitch(66738, 69), 25.4 / 6673.8, 1e-9);
+	// 35.9 mm; rounded up, and by the width of a sensor of 4:3.
+	for (const uint16_t f35 : { 45, 46, 47 })
+		EXPECT_NEAR(pitch(44150, f35), 25.4 / 4415, 1e-9) << f35;
+}
+
+TEST(Exif, APitchOfItsOwnIsSaid)
+{
+	Calibration c;
+	c.task.states.push_back({ "untilted", false, { Photo() } });
+	c.task.pitch_mm = 0.0038;
+	c.task.width = 6240;
+	c.task.height = 4160;
+	EXPECT_THAT(CompareWithExif(c), testing::IsEmpty());
+	c.task.pitch_from_exif = true;
+	EXPECT_THAT(CompareWithExif(c), testing::ElementsAre(testing::AllOf(HasSubstr("sensor of 23.7 x 15.8 mm"), HasSubstr("give `pitch`"))));
 }
 
 TEST(Exif, BecomesWeakPriorsWhereNothingWasGiven)

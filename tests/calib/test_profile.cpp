@@ -98,6 +98,22 @@ TEST(Profile, ShadingIsFoundThoughTheEdgesDoNotMeet)
 	EXPECT_LT(Compare(photo, Stripes(3), {}, Match::SHADING).mean_abs_error, 0.05);
 }
 
+// Counts of a sensor, 12 bits: white all over, if 1 were.
+TEST(Profile, LightOfAnotherUnitIsComparedByOneGain)
+{
+	const cv::Mat a = 4000 * Stripes(0), b = 4000 * Stripes(3);
+	const Comparison ordinary = Compare(2 * Stripes(0), 2 * Stripes(3), {}, Match::NONE), counts = Compare(a, b, {}, Match::NONE);
+	// Its brightest hundredth, 2000, is white. Single precision: 1e-5 of 255.
+	EXPECT_NEAR(counts.gain, 1 / 2000., 1e-9);
+	EXPECT_EQ(ordinary.gain, 1);
+	EXPECT_GT(counts.mean_abs_error, 1);
+	EXPECT_NEAR(counts.mean_abs_error, ordinary.mean_abs_error, 3e-3);
+	EXPECT_NEAR(Compare(a, 0.5 * a, {}, Match::GAIN).shading.coefficients[0], 2, 1e-4);
+	EXPECT_NEAR(Compare(a, 3 * a, {}, Match::GAIN).mean_abs_error, 0, 1e-3);
+	// A photograph of 8 bits, and a render that is three times as bright.
+	EXPECT_NEAR(Compare(Stripes(0), 3 * Stripes(0), {}, Match::GAIN).shading.coefficients[0], 1 / 3., 1e-4);
+}
+
 TEST(Profile, ColourCountsByItsLuminance)
 {
 	cv::Mat colour(80, 120, CV_32FC3, cv::Scalar(0.1, 0.4, 0.2));   // blue, green, red

@@ -2,6 +2,7 @@
 //
 // At which stops photographs were taken: by words, by EXIF, and what is refused.
 
+#include "calibrate/exif_check.h"
 #include "calibrate/stops_of_photographs.h"
 #include "model/told_state.h"
 
@@ -97,6 +98,46 @@ TEST(SetStops, ExifFillsIn)
 TEST(SetStops, APhotographThatSaysNoneBesideOthersIsRefused)
 {
 	EXPECT_THAT([] { Photographed({ Taken(2.8, 0) }, { Taken(0, 0) }); }, ThrowsMessage<Error>(HasSubstr("give `state` plus5:f_number=N='IMG.jpg'")));
+}
+
+// A chip in an adapter writes one f-number whatever the ring says.
+TEST(FNumberOfReference, IsWhatWasTold)
+{
+	const auto of = [](const Task& task) { return FNumberOfReference(task); };
+	const auto stopped = of(Photographed({ Taken(2.8, 1.4) }, { Taken(8, 1.4) }));
+	ASSERT_TRUE(stopped);
+	EXPECT_EQ(stopped->value, 2.8);
+	EXPECT_TRUE(stopped->told);
+	// Told of all alike it is known too, though there is one stop.
+	const Task one = Photographed({ Taken(5.6, 0) }, { Taken(5.6, 0) });
+	ASSERT_TRUE(of(one));
+	EXPECT_EQ(of(one)->value, 5.6);
+	EXPECT_EQ(PriorsFromExif(one, {}).size(), 1u);
+	const auto exif = of(Photographed({ Taken(0, 4) }, { Taken(0, 4) }));
+	ASSERT_TRUE(exif);
+	EXPECT_FALSE(exif->told);
+	EXPECT_FALSE(of(Photographed({ Taken(0, 4) }, { Taken(0, 5.6), Taken(0, 0) }))) << "they differ";
+}
+
+// Vignetting is of one opening.
+TEST(FlatFields, OfAnotherSettingAreNamed)
+{
+	std::vector<std::string> warnings;
+	const Log log([&](Severity, const std::string& text) { warnings.push_back(text); });
+	const auto warn = [&](const Task& task, double f_number)
+	{
+		PhotographFacts facts;
+		facts.f_number = f_number;
+		warnings.clear();
+		WarnOfOtherSetting(task, "wall.jpg", facts, log);
+	};
+	const Task stopped = Photographed({ Taken(2.8, 0) }, { Taken(8, 0) });
+	warn(stopped, 2.83);
+	EXPECT_THAT(warnings, testing::IsEmpty());
+	warn(stopped, 8);
+	EXPECT_THAT(warnings, testing::ElementsAre(testing::AllOf(HasSubstr("wall.jpg"), HasSubstr("f/8"), HasSubstr("widest stop are of f/2.8"))));
+	warn(Photographed({ Taken(0, 0) }, { Taken(0, 0) }), 8);
+	EXPECT_THAT(warnings, testing::IsEmpty()) << "nothing contradicts it";
 }
 
 TEST(CheckStops, RefusesWhatIsNone)

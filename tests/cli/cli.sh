@@ -173,7 +173,7 @@ detect_unwritable) : >blocked; refuses 3 blocked detect --board 12x9 "$target/un
 profile_same)
 	expect 0 profile "$photos/scene/plus5.jpg" "$photos/scene/plus5.jpg" --line 0,660,1799,660 --out result
 	prints "line 1 (0,660,1799,660): mean absolute error 0.000" ; prints "match none"
-	refuses 2 "would write over it" profile "$photos/scene/plus5.jpg" result/side-by-side.png --out result
+	refuses 2 "would write over what B reads" profile "$photos/scene/plus5.jpg" result/side-by-side.png --out result
 	[ -s result/side-by-side.png ] || fail "it is gone" ;;
 profile_sizes_differ)
 	# A PNG of 1 x 1 pixels.
@@ -289,13 +289,16 @@ target_usage)
 	refuses 2 "circle-diameter" target --board 7x6 --square 25 --kind circles --circle-diameter 25 --out board.pdf
 	refuses 2 "--out is required" target --board 12x9 --square 25 ;;
 target_turned) # what looks the same upside down is said to
-	expect 0 target --board 12x8 --square 20 --out board.svg; says "turned by 180 degrees" ;;
+	expect 0 target --board 12x8 --square 20 --out board.svg; says "turned by 180 degrees: mark its top"
+	expect 0 target --kind asymmetric-circles --board 4x10 --square 20 --out rings.svg; says "turned by 180 degrees: tiltcal does not read it" ;;
 lens_files)
 	expect 0 lens "$glass" --focal-length 45 --f-number 2.8 --focus 618 --state plus5:tilt=5 --state far:focus=infinity --terms 6 --out result
 	prints "focal length 45.0000, f/2.8"; prints "sixteen numbers"; prints "rim of surface 1:"
 	[ "$(echo $(ls result))" = "camera-far.inc camera-plus5.inc lens.txt" ] || fail "files: $(ls result)"
 	grep -q '#macro TiltCal_plus5_Body(' result/camera-plus5.inc || fail "no macro"
 	! grep -q fifth_order result/camera-plus5.inc || fail "six terms only"
+	# Another lens into the same folder: what it does not write is named.
+	expect 0 lens "$glass" --state plus5:tilt=5 --terms 6 --out result; says "result/camera-far.inc: not of this run"; ! grep -q "plus5.inc: not of this run" err || fail "plus5 is"
 	# Without --out the report alone; --back is the distance that the focus gave.
 	expect 0 lens "$glass" --scale 0.8935988484 --f-number 2.8 --back 35.6932; prints "focal length 45.0000"; prints "sensor 35.6932" ;;
 lens_usage)
@@ -309,6 +312,9 @@ lens_usage)
 	refuses 2 "'tlit' is unknown" lens "$glass" --state a:tlit=5
 	refuses 2 "needs a number" lens "$glass" --state a:tilt=steep
 	refuses 2 "a tilt of 80 degrees is beyond 60" lens "$glass" --state a:tilt=80
+	refuses 2 "excludes --focus" lens "$glass" --focus 618 --back 40
+	refuses 2 "focus and back both" lens "$glass" --state a:focus=618,back=40
+	mkdir taken; : >taken/calibration.json; refuses 2 "taken: holds a calibration" lens "$glass" --out taken
 	refuses 2 "NAME 'a' is already taken" lens "$glass" --state a --state a
 	refuses 2 "'5up' is not of letters.*the first no digit" lens "$glass" --state 5up ;;
 lens_unreadable)

@@ -63,6 +63,13 @@ usage)
 	for bad in 0 -1 inf; do refuses 2 "--unit-mm" export $c --blender x.py --unit-mm=$bad; done
 	refuses 2 "state plus9" export $c --state plus9 --rays x.exr
 	: >blocked; refuses 3 blocked export $c --rays blocked/x.exr
+	# What is read is not written over, nor one file twice.
+	refuses 2 "--opencv camera.json: would write over what --calibration reads" export $c --opencv camera.json
+	refuses 2 "--arnold ./x.ass: is the file of --renderman too" export $c --renderman x.ass --arnold ./x.ass
+	refuses 2 "--stmap x-undistort.exr: is the file of --rays too" export $c --rays x-undistort.exr --stmap x
+	cp camera.yml same.yml; ln -s same.yml linked.yml
+	refuses 2 "--out linked.yml: would write over what IN reads" import same.yml --pitch 0.02 --out linked.yml
+	cmp -s camera.yml same.yml || fail "written over"
 	[ -z "$(ls x* 2>/dev/null)" ] || fail "written: $(ls)" ;;
 points)
 	printf 'u_px,v_px\n0,0\n900.5,600.25\n1799,1199\n' >pixels.csv
@@ -77,6 +84,7 @@ points)
 	refuses 3 "pixels.csv:1: 'u_px,v_px' is not the header x,y,z" project pixels.csv $c
 	sed '3s/,.*//' points.csv >cut.csv; refuses 3 "cut.csv:3: .*not 3 numbers x,y,z" project cut.csv $c
 	refuses 3 nowhere.csv unproject nowhere.csv $c
+	refuses 2 "--out points.csv: would write over what POINTS reads" project points.csv $c --out points.csv
 	# What is not known is empty, and said: where the distortion turns back, and what OpenCV's model has not.
 	sed 's/2400\./900./g; s/-0.125, 0.02/-0.3, 0./' camera.yml >wide.yml
 	expect 0 import wide.yml --pitch 0.02 --out wide.json; grep -q "distortion turns back inside the picture: pixel (.*) sees nothing, and POV-Ray refuses this camera" err || fail "not said"
@@ -97,7 +105,16 @@ undistort)
 	error back/a.exr >there_and_back; error same/a.png >there
 	paste there_and_back there | awk '{ print; good = NF == 2 && $1 < 0.25 * $2 } END { exit !good }' || fail "not undone"
 	refuses 1 "a.jpg is 1800 x 1200 pixels; the undistorted picture has 1980 x 1320" undistort photos/a.jpg $c --out x --overscan 5 --redistort
-	refuses 2 "would be replaced by its own result" undistort flat/a.png $c --out flat
+	# Light above white is lost in a PNG, and said to be.
+	expect 0 undistort exr/a.exr $c --out dark; ! grep -q "brighter than white" err || fail "it is not"
+	# TIFF of floats: its header, ten entries, then the pixels.
+	"$python" -c 'import struct
+entry = lambda tag, kind, value: struct.pack("<HHII", tag, kind, 1, value)
+entries = [entry(256, 4, 1800), entry(257, 4, 1200), entry(258, 3, 32), entry(259, 3, 1), entry(262, 3, 1), entry(273, 4, 134), entry(277, 3, 1), entry(278, 4, 1200), entry(279, 4, 8640000), entry(339, 3, 3)]
+open("bright.tif", "wb").write(b"II*\0" + struct.pack("<IH", 8, 10) + b"".join(entries) + bytes(4) + struct.pack("<1800f", *1350 * [0.5], *450 * [2]) * 1200)'
+	expect 0 undistort bright.tif $c --out cut; grep -q "bright.tif: 25 % of it is brighter than white.*--format exr keeps it" err || fail "not said"
+	expect 0 undistort bright.tif $c --out kept --format exr; ! grep -q "brighter than white" err || fail "nothing is lost"
+	refuses 2 "would write over what PICTURE reads" undistort flat/a.png $c --out flat
 	mkdir other; cp photos/a.jpg other/; refuses 2 "two pictures would become" undistort photos/a.jpg other/a.jpg $c --out x
 	refuses 2 "--format jpg" undistort photos/a.jpg $c --out x --format jpg
 	mkdir empty; : >empty/notes.txt; refuses 3 "empty: holds no pictures" undistort empty $c --out x

@@ -81,6 +81,16 @@ watch_refused) # frontal or too few: a page that says so, exit code 1
 	[ $got = 1 ] || fail "exit code $got, expected 1"
 	grep -q 'state untilted has 0 photographs' result/report.html || fail "the page does not say what is missing"
 	none_left
+	# Without a pitch it says so, on the page too, and as a wrong option at the end. Beside an earlier calibration the page says whose the other files are.
+	mkdir other; : >other/calibration.json
+	common="--board 12x9 --square 25 --model plane --edges-per-photo 40 --threads 1"
+	start --watch in --untilted 'plus5-*.jpg' --out other
+	until_true grep -q 'No calibration yet</b>: --pitch is required' other/report.html
+	grep -q 'no calibration of 1 photograph yet: --pitch is required' err || fail "not said"
+	grep -q 'other files of this folder are of an earlier calibration' other/report.html || fail "whose are they?"
+	! grep -q 'earlier calibration' result/report.html || fail "there was none"
+	kill -INT $pid; wait $pid; got=$?
+	[ $got = 2 ] || fail "exit code $got, expected 2"
 	"$tiltcal" calibrate $common --watch nowhere --untilted x --out result >out 2>err; [ $? = 3 ] || fail "a folder that is not there"
 	ln -s round round; "$tiltcal" calibrate $common --watch round --untilted x --out result >out 2>err; [ $? = 3 ] || fail "a folder that leads nowhere" ;;
 watch_field) # a flat field that comes last, in two halves; is gone; is no picture
@@ -112,6 +122,15 @@ open("wall.png", "wb").write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack("
 	[ $got = 0 ] || fail "exit code $got, expected 0"
 	told_by_field || fail "the last one is not there at the end"
 	none_left ;;
+watch_nohup) # logging out does not end it
+	mkdir in
+	cp "$target/untilted-1.jpg" in
+	nohup "$tiltcal" calibrate $common --watch in --untilted 'untilted-*.jpg' --out result >out 2>err & pid=$!
+	until_true grep -q 'no calibration of 1 photograph\|calibrated from 1' err
+	kill -HUP $pid; sleep 1
+	kill -0 $pid 2>/dev/null || fail "ended by the hang-up"
+	kill -INT $pid; wait $pid; got=$?
+	[ $got -le 1 ] || fail "exit code $got" ;;
 interrupt_calibrate)
 	start --untilted "$target/untilted-[1-3].jpg" --tilted plus5="$target/plus5-[1-3].jpg" --out result
 	# In the middle of writing: some are under temporary names.

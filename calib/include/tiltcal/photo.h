@@ -23,7 +23,8 @@ struct PhotographFacts
 	std::optional<double> pitch_mm;          ///< from FocalPlaneXResolution; only when it holds for these pixels
 	int orientation = 1;                     ///< 1 to 8; 1: as the sensor had it
 	std::string make, model, lens;
-	bool subsampled_colour = false;          ///< a JPEG that stores colour at less than full size; not from EXIF
+	bool subsampled_colour = false;          ///< a JPEG, or a TIFF with one inside, that stores colour at less than full size; not from EXIF
+	bool floating_point = false;             ///< light in any unit, without a full scale; not from EXIF
 	std::string left_out;                    ///< channels of the file that are not in the picture: alpha, and OpenEXR's further ones
 
 	TILTCAL_API bool Empty() const;

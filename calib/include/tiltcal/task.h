@@ -75,6 +75,7 @@ struct Task
 {
 	Board board;
 	double pitch_mm = 0;           ///< distance of pixel centres on the sensor
+	bool pitch_from_exif = false;  ///< not told: the verdict says what that leaves open
 	int width = 0, height = 0;
 	std::vector<State> states;     ///< untilted first
 	std::vector<Prior> priors;     ///< what is known beforehand
