@@ -25,7 +25,7 @@ bool IsSameFile(const std::string& a, const std::string& b)
 	if (fs::exists(a, none) && !fs::is_regular_file(a, none))
 		return false;
 	// Before there is a file names must do.
-	return fs::equivalent(a, b, none) || fs::weakly_canonical(a, none) == fs::weakly_canonical(b, none);
+	return fs::equivalent(a, b, none) || fs::weakly_canonical(fs::absolute(a, none), none) == fs::weakly_canonical(fs::absolute(b, none), none);
 }
 
 }

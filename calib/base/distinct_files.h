@@ -13,7 +13,7 @@ namespace tiltcal
 
 struct NamedFile
 {
-	std::string option, file;   ///< "--overlay"; an empty file: the option was not given
+	std::string option, file;   ///< the option by which it was given; an empty file: it was not
 };
 
 /// Throws UsageError, which names the options, where an output is an input, also by another name or a link, or another output.

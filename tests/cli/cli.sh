@@ -312,7 +312,7 @@ lens_usage)
 	refuses 2 "'tlit' is unknown" lens "$glass" --state a:tlit=5
 	refuses 2 "needs a number" lens "$glass" --state a:tilt=steep
 	refuses 2 "a tilt of 80 degrees is beyond 60" lens "$glass" --state a:tilt=80
-	refuses 2 "excludes --focus" lens "$glass" --focus 618 --back 40
+	refuses 2 "--focus excludes --back" lens "$glass" --focus 618 --back 40
 	refuses 2 "focus and back both" lens "$glass" --state a:focus=618,back=40
 	mkdir taken; : >taken/calibration.json; refuses 2 "taken: holds a calibration" lens "$glass" --out taken
 	refuses 2 "NAME 'a' is already taken" lens "$glass" --state a --state a
