@@ -104,18 +104,19 @@ PhotographFacts CommonFacts(const Task& task) { return CommonFacts(FactsOf(task)
 std::optional<NominalFNumber> FNumberOfReference(const Task& task)
 {
 	std::vector<PhotographFacts> all;
-	bool told = false;
+	bool told = false, by_exif = false;
 	for (const State& state : task.states)
 		for (const Photo& photo : state.photos)
 			if (photo.stop == 0)
 			{
 				all.push_back(photo.facts);
 				told = told || photo.f_number;
+				by_exif = by_exif || photo.facts.f_number;
 				if (photo.f_number)
 					all.back().f_number = photo.f_number;
 			}
 	const std::optional<double> value = CommonFacts(all).f_number;
-	return value ? std::optional<NominalFNumber>({ *value, told }) : std::nullopt;
+	return value ? std::optional<NominalFNumber>({ *value, told, by_exif }) : std::nullopt;
 }
 
 double PitchFromExif(const std::vector<std::string>& files, const Log& log)
@@ -223,8 +224,9 @@ std::vector<Prior> PriorsFromExif(const Task& task, const std::vector<Prior>& gi
 			priors.push_back({ quantity, *value, 0.1 * *value });
 	};
 	add(Quantity::FOCAL_LENGTH, facts.focal_length_mm);
+	// What is told corrects EXIF; it alone is for telling stops apart (--prior says what is known).
 	const std::optional<NominalFNumber> nominal = FNumberOfReference(task);
-	add(Quantity::F_NUMBER, nominal ? std::optional(nominal->value) : std::nullopt);
+	add(Quantity::F_NUMBER, nominal && nominal->by_exif ? std::optional(nominal->value) : std::nullopt);
 	return priors;
 }
 

@@ -26,7 +26,8 @@ PhotographFacts CommonFacts(const Task& task);
 struct NominalFNumber
 {
 	double value;
-	bool told;   ///< with the photographs; else EXIF's
+	bool told;      ///< with the photographs; else EXIF's
+	bool by_exif;   ///< EXIF says one too, maybe another
 };
 
 /// At which the photographs of the reference stop were taken, as told or else as EXIF says; those that say any say it alike.
@@ -48,7 +49,7 @@ std::vector<std::string> CompareWithExif(const Calibration& calibration);
 /// For calibration.json: the common facts; null when there are none.
 nlohmann::ordered_json ExifJson(const Task& task);
 
-/// What EXIF says of focal length and f-number, or was told of the latter with the photographs, as weak priors, 10 % each (engraved values are rounded, and lenses that
+/// What EXIF says of focal length and f-number (corrected by the one that was told with the photographs) as weak priors, 10 % each (engraved values are rounded, and lenses that
 /// focus by moving groups shorten their f at close range): they decide where photographs leave it open, and nothing else.
 /// None for a quantity that `given` has.
 std::vector<Prior> PriorsFromExif(const Task& task, const std::vector<Prior>& given);

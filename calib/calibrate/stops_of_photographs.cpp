@@ -78,7 +78,11 @@ void SetStops(Task& task, const Log& log)
 	const std::vector<double> numbers = FNumbers(task);
 	const std::vector<Stop> stops = StopsOf(numbers);
 	if (stops.size() < 2)
+	{
+		if (AnyTold(task))
+			log.Info(fmt::format("all photographs are of f/{:g}: there are no stops to tell apart, and the aperture is found from the blur alone; `prior` f_number={:g}:0.1 says what is known of it", stops[0].f_number, stops[0].f_number));
 		return;
+	}
 	task.stops = stops;
 	size_t n = 0;
 	ForEachPhoto(task, [&](const State&, Photo& photo)

@@ -112,7 +112,10 @@ TEST(FNumberOfReference, IsWhatWasTold)
 	const Task one = Photographed({ Taken(5.6, 0) }, { Taken(5.6, 0) });
 	ASSERT_TRUE(of(one));
 	EXPECT_EQ(of(one)->value, 5.6);
-	EXPECT_EQ(PriorsFromExif(one, {}).size(), 1u);
+	EXPECT_TRUE(PriorsFromExif(one, {}).empty()) << "one f-number is no stop and no prior";
+	const std::vector<Prior> corrected = PriorsFromExif(Photographed({ Taken(5.6, 1.4) }, { Taken(5.6, 1.4) }), {});
+	ASSERT_EQ(corrected.size(), 1u);
+	EXPECT_EQ(corrected[0].value, 5.6);
 	const auto exif = of(Photographed({ Taken(0, 4) }, { Taken(0, 4) }));
 	ASSERT_TRUE(exif);
 	EXPECT_FALSE(exif->told);
