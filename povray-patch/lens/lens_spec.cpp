@@ -172,8 +172,9 @@ SensorAndPlane FromLensTilt(const LensSpec& spec, const Frame& frame)
 		                                           : n.z * power - depth.inverse_distance;
 		if(!(inverse > 0.0))
 			Refuse("tilt_lens: a lens of focal_length %g tilted by %g degrees cannot focus that near: "
-			       "1/image_distance would be %g, which must be greater than 0.",
-			       spec.focal_length.value, spec.lens_tilt.value, inverse);
+			       "1/image_distance would be %g, which must be greater than 0. Move the focus away (along the axis "
+			       "beyond %g), tilt the lens less, or use a shorter focal_length.",
+			       spec.focal_length.value, spec.lens_tilt.value, inverse, spec.focal_length.value / n.z);
 		return { PlaneFromLens(n, power, inverse), inverse };
 	}
 

@@ -40,7 +40,7 @@ struct PilotRequest
 	int blocks = 0;             ///< how many are wanted; 0: no pilot
 	int samples = 0;            ///< per pixel, a power of two; 1: a scout
 	double seconds = 0.0;       ///< wall time from the first block on, after which no block is begun
-	std::string file;           ///< appended to, one block at a time
+	std::string file;           ///< there, and empty, from when the picture of a lens that is sampled begins; appended to, one block at a time
 	std::string chosen;         ///< file of the blocks' numbers; empty: spread evenly
 
 	explicit operator bool() const { return blocks > 0; }

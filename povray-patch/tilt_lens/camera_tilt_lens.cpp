@@ -76,6 +76,9 @@ void CameraLens::Begin_Picture(int width, int height, int left, int top, int rig
 	LensChannels::SetCurrent(Records() ? channels : nullptr);
 	if(pilot_queue)
 		pilot_queue->Begin(width, height, left, top, right, bottom);
+	// Before radiosity's pretrace, which may take its time: there is a lens to sample.
+	if(pilot && Samples_Lens())
+		std::ofstream(pilot.file.c_str(), std::ios::app);
 	const char *file = std::getenv(WriteLensVariable);
 	if(spec.enabled && (file != NULL))
 		std::ofstream(file) << LensText(spec, vectors, lens, width, height);

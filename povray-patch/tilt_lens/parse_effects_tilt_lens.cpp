@@ -59,15 +59,21 @@ void Parser::Parse_Tilt_Lens_Distortion(LensSpec& spec)
 	}
 }
 
-/// blades N [rotation A] [curvature C]
+/// blades N [rotation A] [curvature C], in any order
 void Parser::Parse_Tilt_Lens_Blades(LensSpec& spec)
 {
 	Refuse_Tilt_Lens_Word_Twice(spec.blades.given, Word::Blades);
 	spec.blades = Parse_Float();
-	if (Accept_Tilt_Lens_Word("rotation"))
-		spec.blade_rotation = Parse_Float();
-	if (Accept_Tilt_Lens_Word("curvature"))
-		spec.blade_curvature = Parse_Float();
+	while (true)
+	{
+		const bool rotation = Accept_Tilt_Lens_Word("rotation");
+		if (!rotation && !Accept_Tilt_Lens_Word("curvature"))
+			return;
+		Given<double>& option = rotation ? spec.blade_rotation : spec.blade_curvature;
+		if (option.given)
+			Error("tilt_lens: %s of blades is given twice.", rotation ? "rotation" : "curvature");
+		option = Parse_Float();
+	}
 }
 
 /// vignetting natural, vignetting optical R, Z [, R, Z ...]; both may follow one word.
@@ -108,7 +114,7 @@ void Parser::Parse_Tilt_Lens_Vignetting(LensSpec& spec)
 	}
 }
 
-/// chromatic [lateral CR, CB] [axial AR, AB]
+/// chromatic [lateral CR, CB] [axial AR, AB], in any order
 void Parser::Parse_Tilt_Lens_Chromatic(LensSpec& spec)
 {
 	static const struct { Word word; bool LensSpec::*given; double (LensSpec::*value)[tilt_lens::Wavelengths]; } kinds[] =
@@ -118,18 +124,20 @@ void Parser::Parse_Tilt_Lens_Chromatic(LensSpec& spec)
 	};
 	bool known = false;
 
-	for (int i = 0; i < 2; i++)
+	while (true)
 	{
-		if (!Accept_Tilt_Lens_Word(RowOf(kinds[i].word).option))
-			continue;
-		Refuse_Tilt_Lens_Word_Twice(spec.*kinds[i].given, kinds[i].word);
-		known = spec.*kinds[i].given = true;
-		(spec.*kinds[i].value)[tilt_lens::RedWavelength] = Parse_Float();
+		const bool lateral = Accept_Tilt_Lens_Word(RowOf(Word::LateralChromatic).option);
+		if (!lateral && !Accept_Tilt_Lens_Word(RowOf(Word::AxialChromatic).option))
+			break;
+		const auto& kind = kinds[lateral ? 0 : 1];
+		Refuse_Tilt_Lens_Word_Twice(spec.*kind.given, kind.word);
+		known = spec.*kind.given = true;
+		(spec.*kind.value)[tilt_lens::RedWavelength] = Parse_Float();
 		Parse_Comma();
-		(spec.*kinds[i].value)[tilt_lens::BlueWavelength] = Parse_Float();
+		(spec.*kind.value)[tilt_lens::BlueWavelength] = Parse_Float();
 	}
 	if (!known)
-		Error("tilt_lens: chromatic takes lateral, axial or both, in this order, each with a value for red and one for blue.");
+		Error("tilt_lens: chromatic takes lateral, axial or both, each with a value for red and one for blue.");
 }
 
 /// aberrations { [focal_length F] [f_stop N] [etendue] [spherical A] .. [fifth_order { A1, .., A10 }] }

@@ -3,6 +3,7 @@
 // tiltcost: what accuracy costs in time, for the user's own scene.
 
 #include <tiltcal/error.h>
+#include "base/distinct_files.h"
 #include "base/files.h"
 #include "base/stopwatch.h"
 #include "program/process.h"
@@ -34,6 +35,11 @@ void CheckFiles(const Options& options)
 		throw tiltcal::FileError(fmt::format("{}: cannot be plotted without gnuplot; install gnuplot-nox, or leave --plot out", options.plot));
 	if (options.job.povray.find('/') != std::string::npos && access(options.job.povray.c_str(), X_OK) != 0)
 		throw tiltcal::FileError(fmt::format("{}: no such program; build the target povray, or give the patched POV-Ray with --povray", options.job.povray));
+	std::vector<tiltcal::NamedFile> read{{"SCENE", options.job.scene}};
+	for (const std::string& word : options.job.options)
+		if (IsIniFile(word))
+			read.push_back({"POV-Ray", word});
+	tiltcal::CheckDistinct(read, {{"--plot", options.plot}, {"--csv", options.csv}, {"--rows", options.rows}, {"--page", options.page}});
 	for (const std::string& file : {options.plot, options.csv, options.rows, options.page})
 	{
 		if (file.empty())
@@ -57,7 +63,12 @@ std::vector<FrameRow> FrameRows(const FilmRun& film, const Setting& setting)
 	return rows;
 }
 
-/// The best without denoise that --time, --error or --levels allows; nothing where none was asked.
+[[noreturn]] void RefuseBound(const std::vector<Row>& best)
+{
+	throw tiltcal::Refused(fmt::format("blur_samples up to 8192 do not reach it; the finest settings are\n{}", AnswerText(best.back())));
+}
+
+/// The best without denoise that --time, --error or --levels allows; nothing where none was asked, or --error is beyond all.
 std::optional<Row> RawAnswer(const Options& options, const std::vector<Row>& best)
 {
 	const Figure error = [](const Row& r) { return r.predicted.error; };
@@ -72,8 +83,8 @@ std::optional<Row> RawAnswer(const Options& options, const std::vector<Row>& bes
 	else if (options.error > 0 || options.levels > 0)
 	{
 		row = options.error > 0 ? CheapestBelow(best, error, options.error) : CheapestBelow(best, levels, options.levels);
-		if (!row)
-			throw tiltcal::Refused(fmt::format("blur_samples up to 8192 do not reach it; the finest settings are\n{}", AnswerText(best.back())));
+		if (!row && options.levels > 0)
+			RefuseBound(best);
 	}
 	return row;
 }
@@ -92,13 +103,20 @@ std::string SureText(const Pilot& pilot, const Machine& machine, Row row)
 std::string Answer(const Options& options, const Pilot& pilot, const Machine& machine, const std::vector<Row>& all, const std::vector<Row>& best, std::optional<Row>& row)
 {
 	row = RawAnswer(options, best);
-	if (!row)
+	if (!row && options.error <= 0)
 		return {};
 	std::optional<Row> denoised;
 	if (options.error > 0)
 		denoised = CheapestDenoised(pilot, machine, best, options.error);
 	else if (options.time > 0)
 		denoised = BestDenoisedWithin(pilot, machine, all, options.time);
+	if (!row)
+	{
+		if (!denoised)
+			RefuseBound(best);
+		row = denoised;
+		return SureText(pilot, machine, *row) + "Without denoise blur_samples up to 8192 do not reach it.\n";
+	}
 	if (!denoised || (options.time > 0 ? denoised->denoised_error >= row->predicted.error : denoised->wall >= row->wall))
 		return SureText(pilot, machine, *row);
 	const std::string text = SureText(pilot, machine, *denoised) + "Without denoise:\n" + SureText(pilot, machine, *row);

@@ -43,6 +43,12 @@ public:
 		return text;
 	}
 
+	bool IsThere() const
+	{
+		std::error_code none;
+		return std::filesystem::exists(file, none);
+	}
+
 private:
 	std::string file;
 	std::streamoff at = 0;
@@ -105,12 +111,12 @@ bool PilotRenders::Watch(double seconds)
 	else
 		progress.Show(fmt::format("{} of {} blocks, {:.0f} s{}", std::min(done, wanted), wanted, seconds, TimeLeft(double(done) / std::max(wanted, 1), seconds)));
 
-	// A camera without tilt_lens renders the whole picture: half of it is enough to know.
+	// A camera without a lens to sample begins no file and renders the whole picture: half of it, or of radiosity's pretrace, is enough to know.
 	const std::string said = messages->Next();
 	const size_t at = said.rfind("Rendered ");
 	double rendered = 0, all = 0;
 	const double patience = 3;
-	return done > 0 || seconds < patience || at == std::string::npos ||
+	return pilot->IsThere() || seconds < patience || at == std::string::npos ||
 		std::sscanf(said.c_str() + at, "Rendered %lf of %lf", &rendered, &all) != 2 || rendered < all / 2;
 }
 
@@ -168,8 +174,10 @@ FrameRange PilotRenders::Frames()
 	// POV-Ray says how many frames it is to render before it parses the first.
 	const std::string nothing = fmt::format("{}=1,16,0.001,{}", tilt_lens::PilotVariable, folder.File("nothing"));
 	const tiltcal::ProcessResult result = tiltcal::RunProcess({command, "", {nothing}, "", log}, [&](double) { return said().rendered_frames == 0; });
-	CheckPilotRender(job, result, Contents(log));
 	const RenderLog read = said();
+	// It may have come to what the scene does first, such as opening a file, before it was ended.
+	if (read.rendered_frames == 0)
+		CheckPilotRender(job, result, Contents(log));
 	if (read.rendered_frames <= 1)
 		throw tiltcal::Refused(fmt::format("{} is no animation of several frames, and --frames asks for one; give +KFI1 +KFF24, or leave it out", job.scene));
 	if (read.frame_step > 1)
@@ -234,6 +242,7 @@ std::vector<std::string> PilotCommand(const Job& job, const tiltcal::TemporaryFo
 	if (frame)
 		command.insert(command.end(), {fmt::format("+SF{}", *frame), fmt::format("+EF{}", *frame)});
 	command.push_back("+O" + Quoted(folder.File("picture")));
+	command.push_back("+GI" + Quoted(folder.File("options.ini")));   // in place of the user's Create_Ini
 	return command;
 }
 

@@ -37,6 +37,8 @@ bad_values)
 no_povray) scene s.pov "$lens"; povray=./nowhere; refuses 3 "nowhere: no such program" s.pov ;;
 unwritable)
 	scene s.pov "$lens"; : >blocked
+	refuses 2 "--csv s.pov: would write over what SCENE reads" s.pov --csv s.pov
+	refuses 2 "is the file of --plot too" s.pov --plot x.svg --csv ./x.svg
 	refuses 3 blocked s.pov --csv blocked/table.csv; refuses 3 nowhere s.pov --plot nowhere/plot.svg
 	# A folder that one may not write into; root may, so nobody tries.
 	mkdir locked; chmod 555 locked; chmod 777 tmp; as=
@@ -109,6 +111,8 @@ writes)
 	done
 	expect 0 s.pov $small --error 0.02 --scene-may-write; prints "^blur_samples"
 	[ "$(grep -c parsed log.txt)" = 2 ] || fail "log.txt is not written twice: $(cat log.txt)"
+	# A film's frames are asked for by a process that writes nothing.
+	expect 0 s.pov $small +KFI1 +KFF3 --frames 1 --error 0.02 --scene-may-write; prints "^blur_samples"
 	# Reading is no writing.
 	scene s.pov "$lens"; echo '1, 2' >numbers.txt; printf '#fopen In "numbers.txt" read\n#read (In, A, B)\n#fclose In\n' >>s.pov
 	expect 0 s.pov $small --error 0.02; prints "^blur_samples" ;;
@@ -116,12 +120,21 @@ keeps)
 	# Photons and radiosity that the scene or the user's options save stay as they are.
 	scene s.pov "$lens"; echo 'global_settings { photons { count 2000 save_file "caustics.ph" } } sphere { <1, 0, -1>, 0.4 pigment { rgbt 1 } interior { ior 1.5 } photons { target refraction on } }' >>s.pov
 	echo precious >caustics.ph; echo precious >light.rca
-	expect 0 s.pov $small --error 0.02 +RFO +RFlight.rca
+	echo precious >frozen.ini
+	expect 0 s.pov $small --error 0.02 +RFO +RFlight.rca +GIfrozen.ini
+	[ "$(cat frozen.ini)" = precious ] || fail "frozen.ini was overwritten"
 	[ "$(cat caustics.ph)" = precious ] || fail "caustics.ph was overwritten"
 	[ "$(cat light.rca)" = precious ] || fail "light.rca was overwritten"
 	# Which a render does overwrite.
 	"$povray" s.pov -D +W8 +H6 +Os.png >log.txt 2>&1 || fail "the scene does not render"
 	[ "$(head -c 8 caustics.ph)" != precious ] || fail "the scene saves no photons: nothing shown" ;;
+radiosity)
+	# A pretrace of several seconds, whose pixels POV-Ray counts before there is any block.
+	scene s.pov "$lens"; echo 'global_settings { radiosity { count 80 pretrace_start 0.04 pretrace_end 0.004 nearest_count 20 error_bound 0.2 low_error_factor 0.3 } }' >>s.pov
+	expect 0 s.pov +W160 +H120 +WT1 --pilot-time 0.5s; prints "blur_samples [0-9]*, [0-9]*  variance"
+	# tiltcost's patience with cameras that have no lens is 3 s.
+	sed -n 's/.*Before the first ray: \([0-9.]*\) s.*/\1/p' out | awk '{ good = $1 > 3 } END { exit !(NR == 1 && good) }' || fail "too short a pretrace: nothing shown"
+	scene s.pov perspective; echo 'global_settings { radiosity { count 100 } }' >>s.pov; refuses 1 "tilt_lens" s.pov $small ;;
 pilot_time)
 	# By the clock, also where two threads share one processor: 1 s for both pilots, and what a block lasts that has begun.
 	scene s.pov "$lens"

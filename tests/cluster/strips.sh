@@ -210,6 +210,9 @@ light)
 	other_pixels none.png dark.png "the photons change nothing: nothing shown"
 	scene r.pov "$blur" "$light global_settings { radiosity { count 20 #if (Strips_Light = 2) pretrace_start 1 pretrace_end 1 always_sample off #end } }"
 	expect 0 r.pov $small --parts 2 --local 2 --light; [ -s "$(folder)/light/strips.rca" ] || fail "no radiosity"
+	# Of all steps of the pretrace, also where each is counted anew.
+	cp "$(folder)/light/strips.rca" plain.rca
+	expect 0 r.pov $small +HR --parts 2 --local 2 --light; cmp plain.rca "$(folder)/light/strips.rca" || fail "+HR: other radiosity"
 	# A film's light is that of its first frame, with photons and radiosity both.
 	scene f.pov "$blur" "$light global_settings { photons { count 3000 #if (Strips_Light = 1) save_file \"strips.ph\" #end #if (Strips_Light = 2) load_file \"strips.ph\" #end }
 		radiosity { count 20 #if (Strips_Light = 2) pretrace_start 1 pretrace_end 1 always_sample off #end } } $glass #debug concat(\"frame \", str(frame_number, 0, 0), \"\\n\")"

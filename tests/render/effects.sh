@@ -178,6 +178,10 @@ bokeh)
 	picture blades "$lens blades 6 rotation 10" 'blur_samples 64 variance 0'
 	picture painted "$lens blades 6 rotation 10" 'blur_samples 64 variance 0 bokeh { pigment { rgb 1 } }'
 	check "white blades" "$compare" rms 1e-4 blades.exr painted.exr
+	# Options in any order.
+	picture one_order "$lens blades 6 rotation 10 curvature 0.3 chromatic lateral 0.004, -0.006 axial 0.01, 0" 'blur_samples 16 variance 0'
+	picture other_order "$lens chromatic axial 0.01, 0 lateral 0.004, -0.006 blades 6 curvature 0.3 rotation 10" 'blur_samples 16 variance 0'
+	check "options in another order" "$compare" rms 0 one_order.exr other_order.exr
 	grep -q 'Effects: *blades, bokeh' painted.exr.log || fail "the statistics do not name blades, bokeh"
 	;;
 chromatic)

@@ -44,7 +44,7 @@ refusals)
 	# 100 along the axis, but 100 cos 65.3 = 41.787 from the plane; the hinge is 46 away.
 	refused behind_tilted "focal_plane_tilt 65.3 focal_distance 100 focal_length 45" "$at_origin" "passes 41.7867 from the lens centre, no farther than focal_length 45"
 	refused at_focus "focal_distance 2 focal_length 2" "$at_origin" "which must be greater than 0"
-	refused tilted_behind "lens_tilt 10 focal_distance 1 focal_length 2" "$at_origin" "would be -0.507596, which must be greater than 0"
+	refused tilted_behind "lens_tilt 10 focal_distance 1 focal_length 2" "$at_origin" "would be -0.507596, which must be greater than 0" "Move the focus away (along the axis beyond 2.03085)"
 	refused right_angle "focal_plane_tilt 90" "$at_origin" "must lie between -90 and 90 degrees, but is 90"
 	refused line_of_points "focal_points <0, 0, 5>, <1, 0, 6>, <2, 0, 7>" "$at_origin" "lie on one line"
 	refused blades_few "blades 2" "$at_origin" "blades must be a whole number from 3 to 64, but is 2"
@@ -60,6 +60,8 @@ refusals)
 	refused folds "aberrations { distortion 3000 }" "$at_origin" "the aberrations fold inside the frame: at" "Use smaller numbers"
 	refused pupil_of_none "aberrations { spherical 1e7 }" "$at_origin" "spherical of aberrations must lie between -1e6 and 1e6"
 	refused stop_of_none "aberrations { f_stop 0 coma 1 }" "$at_origin" "f_stop of aberrations must be greater than 0, but is 0"
+	misread rotation_twice "blades 5 rotation 1 curvature 0.1 rotation 2" "$at_origin" "tilt_lens: rotation of blades is given twice"
+	misread axial_twice "chromatic axial 0, 1 lateral 0, 0 axial 0, 1" "$at_origin" "tilt_lens: chromatic axial is given twice"
 	misread aberration_typo "aberrations { sperical 1 }" "$at_origin" "Unknown word 'sperical' in aberrations; did you mean 'spherical'?"
 	misread aberration_twice "aberrations { spherical 1 spherical 2 }" "$at_origin" "tilt_lens: spherical of aberrations is given twice"
 	misread etendue_twice "aberrations { etendue etendue }" "$at_origin" "tilt_lens: etendue of aberrations is given twice"

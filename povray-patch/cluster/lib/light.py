@@ -38,7 +38,7 @@ def make_light(sub):
 	_run(sub, _words(sub, 1) + words + one_pixel(sub["width"], sub["height"]), log, {})
 	if re.search(r"\bradiosity\b", _text(sub)):
 		photons = os.path.exists(f"{folder}/{PHOTONS}")
-		_run(sub, _words(sub, 2 if photons else 1) + words + ["+V", "+RFO", "+RF" + quoted(_seen(sub, f"{folder}/{RADIOSITY}"))], log, pilot, _pretraced)
+		_run(sub, _words(sub, 2 if photons else 1) + words + ["+V", "-HR", "+RFO", "+RF" + quoted(_seen(sub, f"{folder}/{RADIOSITY}"))], log, pilot, _pretraced)
 	if not any(os.path.exists(f"{folder}/{name}") for name in (PHOTONS, RADIOSITY)):
 		raise refused("--light: the scene saved neither photons (photons { save_file \"strips.ph\" } with Strips_Light = 1) nor radiosity; "
 			"povray-strips --help shows what to write")
@@ -81,7 +81,7 @@ def place(sub):
 
 
 def _pretraced(log):
-	"""Whether the picture itself is begun: the number of pixels begins anew after the pretrace."""
+	"""Whether the picture itself is begun: the number of pixels begins anew after the pretrace (with +HR after each of its steps)."""
 	numbers = [int(n) for n in re.findall(r"Rendered (\d+) of", log)]
 	return any(after < before for before, after in zip(numbers, numbers[1:]))
 

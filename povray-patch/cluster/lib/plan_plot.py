@@ -28,6 +28,8 @@ def plot(path, curves, scene):
 		return False
 	if done.returncode != 0 or not os.path.exists(path + ".new"):
 		print(f"note: no plot; gnuplot says: {done.stderr.strip()[:300]}", file=sys.stderr)
+		if os.path.exists(path + ".new"):
+			os.unlink(path + ".new")
 		return False
 	os.replace(path + ".new", path)
 	return True

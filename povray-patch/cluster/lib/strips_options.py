@@ -7,7 +7,8 @@ from povray_options import is_switch
 from words import parse as parse_words
 
 HELP = """povray-strips: renders one picture, or a film, in parts: on a Slurm cluster, or on this machine with --local. The parts are strips of
-rows of equal predicted cost; the joined picture has the pixels of one process.
+rows of equal predicted cost; the joined picture has the pixels of one process (but where radiosity goes on sampling, or a camera
+without an opening draws random numbers).
 Usage: povray-strips [OPTIONS] SCENE...
 
 Positionals:
