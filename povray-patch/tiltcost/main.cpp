@@ -35,10 +35,9 @@ void CheckFiles(const Options& options)
 		throw tiltcal::FileError(fmt::format("{}: cannot be plotted without gnuplot; install gnuplot-nox, or leave --plot out", options.plot));
 	if (options.job.povray.find('/') != std::string::npos && access(options.job.povray.c_str(), X_OK) != 0)
 		throw tiltcal::FileError(fmt::format("{}: no such program; build the target povray, or give the patched POV-Ray with --povray", options.job.povray));
-	std::vector<tiltcal::NamedFile> read{{"SCENE", options.job.scene}};
-	for (const std::string& word : options.job.options)
-		if (IsIniFile(word))
-			read.push_back({"POV-Ray", word});
+	std::vector<tiltcal::NamedFile> read;
+	for (const std::string& file : options.files)
+		read.push_back({"SCENE", IsIniFile(file) && file.back() == ']' ? file.substr(0, file.rfind('[')) : file});
 	tiltcal::CheckDistinct(read, {{"--plot", options.plot}, {"--csv", options.csv}, {"--rows", options.rows}, {"--page", options.page}});
 	for (const std::string& file : {options.plot, options.csv, options.rows, options.page})
 	{
@@ -219,7 +218,12 @@ void Run(const Options& options)
 	std::optional<Row> answer;
 	const std::string text = Answer(options, pilot, report.pilot.machine, all, report.best, answer);
 	report.frames = FrameRows(film, answer ? answer->setting : report.rows[std::min(StopsPaying(report.rows, options.stop_levels), report.rows.size() - 1)].setting);
-	fmt::print("{}{}", text.empty() ? HeaderText(report) + "\n" + TableText(report) : text, FramesText(report));
+	fmt::print("{}", text.empty() ? HeaderText(report) + "\n" + TableText(report) : text);
+	// The table has them already.
+	for (const Row& row : report.own)
+		if (!text.empty())
+			fmt::print("Named by --setting:\n{}", SureText(pilot, report.pilot.machine, row));
+	fmt::print("{}", FramesText(report));
 }
 
 }

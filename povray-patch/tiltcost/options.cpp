@@ -110,7 +110,7 @@ const char Footer[] =
 	"It stops paying at the first row whose error is below 0.29 levels: rounding to 8 bits alone errs by 1/sqrt(12) = 0.29.\n"
 	"\n"
 	"Exit codes: 0 done, 1 refused (the scene does not render, has no tilt_lens, or the bound cannot be met),\n"
-	"2 wrong usage, 3 unreadable or unwritable file, 130 interrupted.";
+	"2 wrong usage, 3 unreadable or unwritable file (but 1 for a scene that POV-Ray cannot open), 128 + signal interrupted.";
 
 }
 
@@ -171,6 +171,7 @@ Options ParseCommandLine(CLI::App& app, int argc, char** argv)
 	// CLI11 takes them from the back.
 	app.parse(std::vector<std::string>(own.rbegin(), own.rend()));
 	options.job.scene = files[0];
+	options.files = files;
 	options.job.rows = !options.rows.empty();
 	if (by_time->count())
 		options.time = Positive("--time", time, ParseDuration, "a time such as 60s, 5m or 2h");

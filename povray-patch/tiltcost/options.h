@@ -20,6 +20,7 @@ const double AsTheScene = 0;
 struct Options
 {
 	Job job;
+	std::vector<std::string> files;             ///< the scene and ini files as they were named, [SECTION] with them
 	double time = 0, error = 0, levels = 0;     ///< --time, --error or --levels, at most one of them; 0: not asked
 	double stop_levels = 0.29;
 	std::vector<Setting> own;                   ///< confidence AsTheScene where it was not named

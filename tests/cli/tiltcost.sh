@@ -38,6 +38,8 @@ no_povray) scene s.pov "$lens"; povray=./nowhere; refuses 3 "nowhere: no such pr
 unwritable)
 	scene s.pov "$lens"; : >blocked
 	refuses 2 "--csv s.pov: would write over what SCENE reads" s.pov --csv s.pov
+	cp s.pov t.pov; printf '[fast]\n' >"my film.ini"
+	for own in t.pov "my film.ini"; do refuses 2 "would write over what SCENE reads" "my film.ini[fast]" t.pov s.pov --csv "$own"; done
 	refuses 2 "is the file of --plot too" s.pov --plot x.svg --csv ./x.svg
 	refuses 3 blocked s.pov --csv blocked/table.csv; refuses 3 nowhere s.pov --plot nowhere/plot.svg
 	# A folder that one may not write into; root may, so nobody tries.
@@ -74,7 +76,8 @@ questions)
 	prints "^Without denoise:"; head -1 out | grep -q 'tilt_lens { denoise }' || fail "the first answer is not denoised"
 	sed -n 's/^ *RMS error \([0-9.]*\).* per pixel; \([0-9.]*\) s .*/\1 \2/p' out |
 		awk '{ print; e[NR] = $1; late += $2 > 10 } END { exit !(NR == 2 && e[1] < e[2] && !late) }' || fail "late, or not the best first"
-	refuses 1 "finest" s.pov $small --error 0.0000001 ;;
+	refuses 1 "finest" s.pov $small --error 0.0000001
+	expect 0 s.pov $small --error 0.02 --setting 16,64,0.0001; [ "$(grep -c '^Named by --setting:' out)" = 1 ] && prints "^blur_samples 16, 64  variance 0.0001" || fail "the setting that was named is not there" ;;
 own_picture)
 	# Output that the user's options name stays as it is.
 	scene s.pov "$lens"; echo precious >mine.png

@@ -62,6 +62,17 @@ usage)
 	expect 2 s.pov --parts; says "needs a value"
 	expect 2 s.pov --setting 3; says "MIN,MAX,VARIANCE"
 	expect 2 s.pov --local 1 --nodes 2; says "exclude each other"
+	expect 2 s.pov --local 1 --sbatch --mem=2G; says "leave one out"
+	# What tiltcost would refuse after the submission.
+	for bad in "--pilot-time 10sec" "--pilot-time 0" "--pilot-blocks 2000000" "--setting 32,16,0.1" "--setting 1,64,5" "--setting 1,64,0.1,2"; do
+		expect 2 s.pov --local 1 $bad; says "${bad%% *}: '${bad#* }' is n"
+	done
+	# An action has no options but its own.
+	expect 2 --resume a --dry-run; says "--resume takes no --dry-run, only --local, --nodes, --sbatch"
+	expect 2 --resume a --cpus 2; says "takes no --cpus"
+	expect 2 --join a --dry-run; says "--join takes no --dry-run"
+	expect 2 --part 0 a --cpus 2; says "--part takes no --cpus"
+	expect 2 s.pov --plan --parts 4; says "--plan takes no --parts"
 	for word in +SR3 +ER9 +C Start_Row=3 +SF2 +SC4; do expect 2 s.pov --local 1 $word; says "'$word' is decided here"; done
 	expect 2 --join a b; says "those of the submission"
 	expect 3 --join nowhere; says "nowhere: no submission"
@@ -79,7 +90,9 @@ missing)
 	expect 1 s.pov $small --local 2; says "Cannot open include file forms.inc"; says "nothing was submitted"
 	[ ! -e s.strips ] || fail "a folder is left"
 	echo 'sphere { -y, 1 }' > forms.inc
-	expect 0 s.pov $small --parts 2 --dry-run; prints "2 files of the scene"; prints "Not submitted"; [ ! -e s.strips ] || fail "a dry run leaves a folder"
+	expect 0 s.pov $small --parts 2 --dry-run; prints "2 files of the scene"; prints "Not submitted"; ! grep -q note err || fail "a note on nothing"
+	expect 0 s.pov $small +WT8 --parts 2 --dry-run; says "note: parts have 1 threads, by --cpus, in place of +WT"
+	expect 0 s.pov $small --parts 2 --dry-run; [ ! -e s.strips ] || fail "a dry run leaves a folder"
 	scene w.pov "$blur" '#fopen Log "log.txt" write'
 	expect 1 w.pov $small --parts 2 --local 2; says "log.txt"; says "scene-may-write"
 	expect 0 w.pov $small --parts 2 --local 2 --scene-may-write

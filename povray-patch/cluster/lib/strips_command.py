@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: AGPL-3.0-or-later
 """povray-strips: what is asked for, and in which order it is done."""
 import os
+import re
 import shlex
 import sys
 
@@ -48,8 +49,12 @@ def _describe(values, script):
 	povray = os.path.abspath(povray) if "/" in povray else povray
 	scene, words = values["own"][0], values["all"]
 	found = inspect(povray, scene, words + (["Declare=Strips_Light=0"] if "--light" in values else []), os.getcwd(), "--scene-may-write" in values)
+	if any(re.match(r"[+-]WT|Work_Threads=", word, re.I) for word in words):
+		print(f"note: parts have {values.get('--cpus', 1)} threads, by --cpus, in place of +WT", file=sys.stderr)
 	output = os.path.abspath(found["output"])
 	frames = found["frames"]
+	if frames and "--light" in values:
+		print(f"note: --light: all frames have the radiosity and photons of frame {frames[0]}", file=sys.stderr)
 	targets = [frame_name(output, frame, found["digits"]) for frame in frames or [None]]
 	return {"cwd": os.getcwd(), "scene": scene, "words": words, "povray": povray, "tiltcost": os.path.join(beside, "tiltcost"),
 		"picture_rows": os.path.join(beside, "..", "lib", "tilt-lens", "picture_rows"), "parts": values.get("--parts", len(frames) if frames else 40),
@@ -93,6 +98,9 @@ def _resume(sub, values, script):
 
 
 def _start(sub, tasks, values, script):
+	"""What --resume says anew counts: of two equal words for sbatch the last one does."""
+	if "--resume" in values:
+		sub = {**sub, "sbatch": sub["sbatch"] + values["--sbatch"], "at_once": values.get("--nodes", sub["at_once"])}
 	return _run_here(sub, tasks, values["--local"], script) if "--local" in values else _run_there(sub, tasks, script)
 
 

@@ -20,11 +20,11 @@ Options:
   --parts INT                 so many parts [40; a film: one a frame]
   --local INT                 no Slurm: so many parts at once on this machine
   --nodes INT                 at most so many parts at once on the cluster [as many as Slurm gives]
-  --cpus INT                  threads of a part [1]
+  --cpus INT                  threads of a part, in place of +WT [1]
   --dry-run                   say what would be submitted, and submit nothing
   --plan                      measure, and say how long the picture takes on 1 to 1000 nodes, up to 16k: PICTURE.plan.json, .svg
   --sbatch TEXT               words for sbatch, such as '--partition=long --time=2:00:00 --mem=8G'; repeatable
-  --light                     radiosity and photons once, for all parts; the scene must ask for it (see below)
+  --light                     radiosity and photons once, for all parts, of a film those of its first frame; the scene must ask for it (see below)
   --pilot-time TEXT           how long tiltcost's pilot may trace [10s]
   --pilot-blocks INT          at most so many blocks of 16 x 16 pixels in the pilot [400]
   --setting TEXT              cost for blur_samples MIN,MAX,VARIANCE[,CONFIDENCE] [what the scene says]
@@ -32,7 +32,8 @@ Options:
   --scene-may-write           let a scene that opens files for writing (#fopen) do so, in every part
   --povray TEXT               POV-Ray [the povray beside povray-strips]
   --status TEXT               which parts of this submission are missing, and the command that renders each alone
-  --resume TEXT               submit again what is missing of this submission, or render it with --local
+  --resume TEXT               submit again what is missing of this submission, or render it with --local; --sbatch and --nodes may say
+                              what is to be another than then, such as the memory
   --part INT                  render one part of the submission in FOLDER, here: --part NUMBER FOLDER
   --join TEXT                 join this submission's parts, here
   --cut TEXT                  cut this submission's picture, here; the first job does so
@@ -80,15 +81,39 @@ def _checked(values):
 	if "--part" in values:
 		if actions or len(values["own"]) != 1:
 			raise usage("--part NUMBER FOLDER, and nothing else")
+		_alone(values, "--part")
 	elif actions:
 		if values["all"]:
 			raise usage(f"{actions[0]} FOLDER: the scene and its options are those of the submission")
+		_alone(values, actions[0], ("--local", "--nodes", "--sbatch") if actions[0] == "--resume" else ())
 	elif not values["own"]:
 		raise usage("SCENE is required; povray-strips --help shows examples")
 	if "--plan" in values and ("--local" in values or "--dry-run" in values):
 		raise usage("--plan renders no picture: leave out --local and --dry-run")
+	if "--plan" in values:
+		_alone(values, "--plan", ("--light", "--pilot-time", "--pilot-blocks", "--setting", "--equal-rows", "--scene-may-write", "--povray"))
 	if "--nodes" in values and "--local" in values:
 		raise usage("--nodes and --local exclude each other")
-	if "--setting" in values and not re.fullmatch(r"\d+,\d+,[\d.eE+-]+(,[\d.]+)?", values["--setting"]):
-		raise usage(f"--setting: '{values['--setting']}' is not MIN,MAX,VARIANCE[,CONFIDENCE], such as 16,256,0.0001")
+	if values["--sbatch"] and "--local" in values:
+		raise usage("--sbatch is for Slurm, and --local renders without it: leave one out")
+	_check_pilot(values)
 	return values
+
+
+def _alone(values, action, but=()):
+	for name, value in values.items():
+		if name.startswith("--") and name not in (action, *but) and value not in ([], False):
+			raise usage(f"{action} takes no {name}" + (f", only {', '.join(but)}" if but else ""))
+
+
+def _check_pilot(values):
+	"""What tiltcost would refuse in the first job, long after the submission."""
+	if not re.fullmatch(r"(?=.*[1-9])(\d+\.?\d*|\.\d+)(s|m|min|h)?", values.get("--pilot-time", "10s")):
+		raise usage(f"--pilot-time: '{values['--pilot-time']}' is not a time such as 10s, 2m or 1h")
+	if values.get("--pilot-blocks", 1) > 1000000:
+		raise usage(f"--pilot-blocks: '{values['--pilot-blocks']}' is no number from 1 to 1000000")
+	if "--setting" not in values:
+		return
+	found = re.fullmatch(r"(\d+),(\d+),([\d.]+(?:[eE][+-]?\d+)?)(?:,(0?\.\d+))?", values["--setting"])
+	if not found or not int(found[1]) <= int(found[2]) or int(found[2]) < 1 or found[3].count(".") > 1 or float(found[3]) > 1:
+		raise usage(f"--setting: '{values['--setting']}' is not MIN,MAX,VARIANCE[,CONFIDENCE], such as 16,256,0.0001")
