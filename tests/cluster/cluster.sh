@@ -53,7 +53,8 @@ fails)
 		[ ! -e s.png ] || fail "an incomplete set was joined"
 		alone=$(sed -n 's/^ *\([^ ]*povray-strips --part 3 [^( ]*\) *(.*/\1/p' "$dir/log/join.txt" | tail -1)
 		[ -n "$alone" ] || fail "the failed part's command is not named: $(cat "$dir/log/join.txt")"
-		[ $time = 2 ] || { : > calls; expect 0 --resume "$dir"; prints "1 of 4 parts are missing"; prints "^Jobs: parts"; }
+		[ $time = 2 ] || { : > calls; expect 0 --resume "$dir" --sbatch --nice=7; prints "1 of 4 parts are missing"; prints "^Jobs: parts"
+			scontrol show job "$(last_job "$dir")" | grep -q "Nice=7" || fail "not as --resume says: $(scontrol show job "$(last_job "$dir")")"; }
 	done
 	[ "$(grep -c as.told "$dir/log/part-3.txt")" -ge 2 ] || fail "it did not fail twice"
 	rm bad; sh -c "$alone" > out 2> err || fail "its command"
