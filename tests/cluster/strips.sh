@@ -91,7 +91,7 @@ missing)
 	[ ! -e s.strips ] || fail "a folder is left"
 	echo 'sphere { -y, 1 }' > forms.inc
 	expect 0 s.pov $small --parts 2 --dry-run; prints "2 files of the scene"; prints "Not submitted"; ! grep -q note err || fail "a note on nothing"
-	expect 0 s.pov $small +WT8 --parts 2 --dry-run; says "note: parts have 1 threads, by --cpus, in place of +WT"
+	expect 0 s.pov $small +WT8 --parts 2 --dry-run; says "note: threads of a part: 1, by --cpus"
 	expect 0 s.pov $small --parts 2 --dry-run; [ ! -e s.strips ] || fail "a dry run leaves a folder"
 	scene w.pov "$blur" '#fopen Log "log.txt" write'
 	expect 1 w.pov $small --parts 2 --local 2; says "log.txt"; says "scene-may-write"

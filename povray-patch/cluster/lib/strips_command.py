@@ -50,7 +50,7 @@ def _describe(values, script):
 	scene, words = values["own"][0], values["all"]
 	found = inspect(povray, scene, words + (["Declare=Strips_Light=0"] if "--light" in values else []), os.getcwd(), "--scene-may-write" in values)
 	if any(re.match(r"[+-]WT|Work_Threads=", word, re.I) for word in words):
-		print(f"note: parts have {values.get('--cpus', 1)} threads, by --cpus, in place of +WT", file=sys.stderr)
+		print(f"note: threads of a part: {values.get('--cpus', 1)}, by --cpus, in place of +WT", file=sys.stderr)
 	output = os.path.abspath(found["output"])
 	frames = found["frames"]
 	if frames and "--light" in values:
