@@ -103,8 +103,9 @@ Comparison Compare(const cv::Mat& a, const cv::Mat& b, const std::vector<Line>& 
 {
 	Comparison c;
 	c.match = match;
-	c.gain = GainOf(Luminance(a));
-	const cv::Mat ya = c.gain * Luminance(a), yb = c.gain * Luminance(b);
+	const cv::Mat light = Luminance(a);
+	c.gain = GainOf(light);
+	const cv::Mat ya = c.gain * light, yb = c.gain * Luminance(b);
 	for (const Line& line : lines)
 		CheckInside(line, ya.size());
 	if (match != Match::NONE)

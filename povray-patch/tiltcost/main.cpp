@@ -37,7 +37,7 @@ void CheckFiles(const Options& options)
 		throw tiltcal::FileError(fmt::format("{}: no such program; build the target povray, or give the patched POV-Ray with --povray", options.job.povray));
 	std::vector<tiltcal::NamedFile> read;
 	for (const std::string& file : options.files)
-		read.push_back({"SCENE", IsIniFile(file) && file.back() == ']' ? file.substr(0, file.rfind('[')) : file});
+		read.push_back({"SCENE", IsIniFile(file) ? WithoutSection(file) : file});
 	tiltcal::CheckDistinct(read, {{"--plot", options.plot}, {"--csv", options.csv}, {"--rows", options.rows}, {"--page", options.page}});
 	for (const std::string& file : {options.plot, options.csv, options.rows, options.page})
 	{

@@ -263,13 +263,14 @@ std::string Contents(const std::string& file)
 	return {std::istreambuf_iterator<char>(in), {}};
 }
 
+std::string WithoutSection(const std::string& scene)
+{
+	return !scene.empty() && scene.back() == ']' ? scene.substr(0, scene.rfind('[')) : scene;
+}
+
 bool IsIniFile(const std::string& scene)
 {
-	std::string name = scene;
-	const size_t section = name.rfind('[');
-	if (!name.empty() && name.back() == ']' && section != std::string::npos)
-		name.resize(section);
-	std::string suffix = std::filesystem::path(name).extension().string();
+	std::string suffix = std::filesystem::path(WithoutSection(scene)).extension().string();
 	std::transform(suffix.begin(), suffix.end(), suffix.begin(), [](unsigned char c) { return char(std::tolower(c)); });
 	return suffix == ".ini";
 }

@@ -69,6 +69,9 @@ struct RenderLog
 	bool writes = false;                ///< it was refused because its scene writes files
 };
 
+/// FILE of FILE.ini[SECTION].
+std::string WithoutSection(const std::string& scene);
+
 /// Whether POV-Ray is to be given `scene` as an ini file, FILE.ini or FILE.ini[SECTION], not as a scene.
 bool IsIniFile(const std::string& scene);
 

@@ -88,46 +88,44 @@ TEST_F(PictureFormats, EveryKindGivesTheSamePictureUnturned)
 	}
 }
 
-/// A pixel of red, green and blue in 64 bits each, which OpenCV does not write.
-void WriteDoubles(const std::string& file, std::array<double, 3> colours)
+/// A TIFF of `side` x `side` pixels of red, green and blue, the same `row` of `bits` a sample all over; `fill` sets further tags.
+void WriteTiff(const std::string& file, uint32_t side, int bits, void* row, const std::function<void(TIFF*)>& fill)
 {
 	TIFF* tiff = TIFFOpen(file.c_str(), "w");
 	for (const uint32_t tag : { TIFFTAG_IMAGEWIDTH, TIFFTAG_IMAGELENGTH, TIFFTAG_ROWSPERSTRIP })
-		TIFFSetField(tiff, tag, 1);
-	TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, 64);
-	TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, 3);
-	TIFFSetField(tiff, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_IEEEFP);
-	TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_RGB);
-	TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
-	TIFFWriteScanline(tiff, colours.data(), 0, 0);
-	TIFFClose(tiff);
-}
-
-/// 16 x 16 pixels of one colour; `fill` sets further tags.
-void WriteTiff(const std::string& file, const std::function<void(TIFF*)>& fill)
-{
-	TIFF* tiff = TIFFOpen(file.c_str(), "w");
-	for (const uint32_t tag : { TIFFTAG_IMAGEWIDTH, TIFFTAG_IMAGELENGTH, TIFFTAG_ROWSPERSTRIP })
-		TIFFSetField(tiff, tag, 16);
-	TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, 8);
+		TIFFSetField(tiff, tag, side);
+	TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, bits);
 	TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, 3);
 	TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_RGB);
 	TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
 	fill(tiff);
-	std::vector<unsigned char> row(48, 100);
-	for (uint32_t y = 0; y < 16; ++y)
-		TIFFWriteScanline(tiff, row.data(), y, 0);
+	for (uint32_t y = 0; y < side; ++y)
+		TIFFWriteScanline(tiff, row, y, 0);
 	TIFFClose(tiff);
+}
+
+/// A pixel of red, green and blue in 64 bits each, which OpenCV does not write.
+void WriteDoubles(const std::string& file, std::array<double, 3> colours)
+{
+	WriteTiff(file, 1, 64, colours.data(), [](TIFF* tiff) { TIFFSetField(tiff, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_IEEEFP); });
+}
+
+/// 16 x 16 pixels of one colour.
+void WriteBytes(const std::string& file, const std::function<void(TIFF*)>& fill)
+{
+	std::array<unsigned char, 48> row;
+	row.fill(100);
+	WriteTiff(file, 16, 8, row.data(), fill);
 }
 
 // Raw files of Nikon and Adobe are TIFFs whose first picture is a preview.
 TEST_F(PictureFormats, PreviewsOfRawFilesAreRefused)
 {
-	WriteTiff(At("whole.tif"), [](TIFF*) {});
+	WriteBytes(At("whole.tif"), [](TIFF*) {});
 	EXPECT_EQ(Refusal("whole.tif"), "");
-	WriteTiff(At("raw.nef"), [](TIFF* tiff) { TIFFSetField(tiff, TIFFTAG_SUBFILETYPE, FILETYPE_REDUCEDIMAGE); });
+	WriteBytes(At("raw.nef"), [](TIFF* tiff) { TIFFSetField(tiff, TIFFTAG_SUBFILETYPE, FILETYPE_REDUCEDIMAGE); });
 	EXPECT_THAT(Refusal("raw.nef"), HasSubstr("raw file"));
-	WriteTiff(At("raw.dng"), [](TIFF* tiff) { TIFFSetField(tiff, TIFFTAG_DNGVERSION, "\1\4\0\0"); });
+	WriteBytes(At("raw.dng"), [](TIFF* tiff) { TIFFSetField(tiff, TIFFTAG_DNGVERSION, "\1\4\0\0"); });
 	EXPECT_THAT(Refusal("raw.dng"), HasSubstr("develop it"));
 }
 
@@ -135,7 +133,7 @@ TEST_F(PictureFormats, HowLightAndColourAreStoredIsTold)
 {
 	const auto jpeg = [&](const char* name, uint16_t step)
 	{
-		WriteTiff(At(name), [&](TIFF* tiff)
+		WriteBytes(At(name), [&](TIFF* tiff)
 		{
 			TIFFSetField(tiff, TIFFTAG_COMPRESSION, COMPRESSION_JPEG);
 			TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_YCBCR);
