@@ -223,6 +223,8 @@ void Run(const Options& options)
 	for (const Row& row : report.own)
 		if (!text.empty())
 			fmt::print("Named by --setting:\n{}", SureText(pilot, report.pilot.machine, row));
+	if (!text.empty())
+		fmt::print("{}", FewBlocksText(report));
 	fmt::print("{}", FramesText(report));
 }
 

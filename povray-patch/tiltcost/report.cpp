@@ -27,8 +27,8 @@ std::string RowText(const Row& row, char mark)
 /// How sure the predictions are, by the least sure of the rows.
 std::string SpreadText(const Report& report)
 {
-	if (report.blocks < LeastBlocksForSpread && report.blocks * std::pow(tilt_lens::PilotBlockSize, 2) < report.pilot.machine.pixels)
-		return fmt::format("Predicted from {} blocks, too few to say how surely: a longer --pilot-time traces more.\n", report.blocks);
+	if (const std::string few = FewBlocksText(report); !few.empty())
+		return few;
 	Spread most;
 	for (const Row& row : report.rows)
 		most = {std::max(most.error, row.spread.error), std::max(most.denoised, row.spread.denoised), std::max(most.seconds, row.spread.seconds)};
@@ -133,6 +133,13 @@ std::string FramesText(const Report& report)
 		text += fmt::format("  {:>5}   {:>9.5f}  {:>11}\n", frame.frame, frame.row.denoised_error > 0 ? frame.row.denoised_error : frame.row.predicted.error,
 			DurationText(frame.row.wall));
 	return text;
+}
+
+std::string FewBlocksText(const Report& report)
+{
+	if (report.blocks >= LeastBlocksForSpread || report.blocks * std::pow(tilt_lens::PilotBlockSize, 2) >= report.pilot.machine.pixels)
+		return {};
+	return fmt::format("Predicted from {} blocks, too few to say how surely: a longer --pilot-time traces more.\n", report.blocks);
 }
 
 std::string AnswerText(const Row& row)

@@ -50,6 +50,9 @@ std::string TableText(const Report& report);
 /// What each of the film's frames that had a pilot costs and gives. Empty for one picture.
 std::string FramesText(const Report& report);
 
+/// That the blocks are too few to say how sure the predictions are; empty where they are enough, or all of the picture.
+std::string FewBlocksText(const Report& report);
+
 /// One setting, what it costs and how surely (where its spread is known), for --time and the like.
 std::string AnswerText(const Row& row);
 

@@ -70,8 +70,11 @@ questions)
 	expect 0 s.pov $small --levels 2; prints "^blur_samples"
 	expect 0 s.pov $small --time 1h; prints "^blur_samples"
 	refuses 1 "coarsest" s.pov $small --time 0.001s
-	# The best of all settings with denoise and without, within the time; then the best without.
-	expect 0 s.pov +W640 +H480 +WT1 --pilot-time 1s --time 10s
+	# An answer of few blocks does not look surer than one of many: 4 are always traced.
+	expect 0 s.pov +W640 +H480 +WT1 --pilot-time 0.001s --error 0.02; prints "^Predicted from [0-9]* blocks, too few to say how surely"
+	! grep -q "is known to" out || fail "sure of what few blocks say"
+	# The best of all settings with denoise and without, within the time; then the best without. Time enough for 20 blocks also under sanitizers.
+	expect 0 s.pov +W640 +H480 +WT1 --pilot-time 4s --time 10s
 	[ "$(grep -c 'error is known to [1-9][0-9]* %, the time to [1-9][0-9]* % (one standard deviation)' out)" = 2 ] || fail "an answer does not say how sure it is"
 	prints "^Without denoise:"; head -1 out | grep -q 'tilt_lens { denoise }' || fail "the first answer is not denoised"
 	sed -n 's/^ *RMS error \([0-9.]*\).* per pixel; \([0-9.]*\) s .*/\1 \2/p' out |
