@@ -219,12 +219,13 @@ void Run(const Options& options)
 	const std::string text = Answer(options, pilot, report.pilot.machine, all, report.best, answer);
 	report.frames = FrameRows(film, answer ? answer->setting : report.rows[std::min(StopsPaying(report.rows, options.stop_levels), report.rows.size() - 1)].setting);
 	fmt::print("{}", text.empty() ? HeaderText(report) + "\n" + TableText(report) : text);
-	// The table has them already.
-	for (const Row& row : report.own)
-		if (!text.empty())
-			fmt::print("Named by --setting:\n{}", SureText(pilot, report.pilot.machine, row));
+	// The table has both already.
 	if (!text.empty())
+	{
+		for (const Row& row : report.own)
+			fmt::print("Named by --setting:\n{}", SureText(pilot, report.pilot.machine, row));
 		fmt::print("{}", FewBlocksText(report));
+	}
 	fmt::print("{}", FramesText(report));
 }
 
