@@ -50,12 +50,31 @@ static bool Contains(const std::string& text, const char* part)
 	return text.find(part) != std::string::npos;
 }
 
-// The sphere, plane and sky of every scene are darker than 1.
-static bool AllFinite(const std::filesystem::path& file)
+// "\nTilt lens\n" and what the statistics say of it, up to the next rule; empty where the camera is of another type.
+static std::string LensReport(const std::string& log)
 {
+	const auto at = log.find("\nTilt lens\n");
+	return at == std::string::npos ? "" : log.substr(at, log.find("\n----", at) - at);
+}
+
+// The sphere, plane and sky of every scene are darker than 1; 2 leaves room for noise. Natural vignetting is relative to the lens's axis:
+// lens sensor^3 / (n.e)^3 with the cosines lens, sensor <= 1 and n.e the cosine of the lens's tilt (natural_vignetting.h).
+static double BrightestPixel(const std::string& report)
+{
+	const auto at = report.find("Lens Tilt:");
+	if (at == std::string::npos || !Contains(report, "natural"))
+		return 2.0;
+	const double degree = std::acos(-1.0) / 180.0;
+	return 2.0 / std::pow(std::abs(std::cos(std::atof(report.c_str() + at + std::strlen("Lens Tilt:")) * degree)), 3.0);
+}
+
+static bool AllFinite(const std::filesystem::path& file, double brightest)
+{
+	// Half floats, which pictures are made of, end here: what is brighter is infinite in the file as in stock's.
+	const double half_ends = 65504.0;
 	const Picture picture = ReadExr(file.string());
 	return picture.width == PictureWidth && picture.height == PictureHeight &&
-		std::all_of(picture.rgb.begin(), picture.rgb.end(), [](double value) { return std::abs(value) < 2.0; }) &&
+		std::all_of(picture.rgb.begin(), picture.rgb.end(), [&](double value) { return std::abs(value) < brightest || (std::isinf(value) && brightest > half_ends); }) &&
 		std::all_of(picture.alpha.begin(), picture.alpha.end(), [](double value) { return value >= 0.0 && value < 1.001; });   // half floats round 1
 }
 
@@ -100,15 +119,14 @@ Outcome Judge(const Block& block, const tiltcal::ProcessResult& result, const st
 	}
 	try
 	{
-		if (!AllFinite(folder / "s.exr"))
-			return Contains(log, "\nTilt lens\n") ? Outcome::NotFinite : Outcome::NotFiniteUpstream;
+		if (!AllFinite(folder / "s.exr", BrightestPixel(LensReport(log))))
+			return !LensReport(log).empty() ? Outcome::NotFinite : Outcome::NotFiniteUpstream;
 	}
 	catch (const std::exception&)
 	{
 		return Outcome::NoPicture;
 	}
-	const auto report = log.find("\nTilt lens\n");
-	if (report != std::string::npos && Contains(log.substr(report, log.find("\n----", report) - report), "nan"))
+	if (Contains(LensReport(log), "nan"))
 		return Outcome::NotANumberInReport;
 	return Outcome::Rendered;
 }
