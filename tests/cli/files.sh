@@ -146,7 +146,7 @@ sets) # a folder has one run's files
 	# Ended while it draws: here in gnuplot, which waits for it.
 	mkdir bin; printf '%s\n' '#!/bin/sh' ': >reached' 'exec sleep 60' >bin/gnuplot; chmod +x bin/gnuplot
 	(export PATH="$PWD/bin:$PATH"; exec "$tiltcal" $calibrate --untilted "$target/untilted-[1-2].jpg" --out result >out 2>err) & run=$!
-	for k in $(seq 300); do [ -e reached ] && break; sleep 0.1; done
+	for k in $(seq 3000); do [ -e reached ] && break; sleep 0.1; done
 	kill -TERM $run; wait $run; code=$?
 	[ $code = 143 ] || fail "exit code $code of a run that was ended"
 	says interrupted; nothing_left
