@@ -172,7 +172,7 @@ FrameRange PilotRenders::Frames()
 	for (const char* option : {"+SR2", "+ER2", "+SC2", "+EC2", "+Q1"})
 		command.emplace_back(option);
 	// POV-Ray says how many frames it is to render before it parses the first, then which there are, then the picture's size.
-	const auto said_all = [](const RenderLog& log) { return log.rendered_frames > 0 && log.pixels > 0; };
+	const auto said_all = [](const RenderLog& read) { return read.rendered_frames > 0 && read.pixels > 0; };
 	const std::string nothing = fmt::format("{}=1,16,0.001,{}", tilt_lens::PilotVariable, folder.File("nothing"));
 	const tiltcal::ProcessResult result = tiltcal::RunProcess({command, "", {nothing}, "", log}, [&](double) { return !said_all(said()); });
 	const RenderLog read = said();
