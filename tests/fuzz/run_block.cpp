@@ -117,16 +117,17 @@ Outcome Judge(const Block& block, const tiltcal::ProcessResult& result, const st
 			return Outcome::NoLine;
 		return Contains(log, "Parse Error: tilt_lens: ") ? Outcome::RefusedByTiltLens : Outcome::RefusedByParser;
 	}
+	const std::string report = LensReport(log);
 	try
 	{
-		if (!AllFinite(folder / "s.exr", BrightestPixel(LensReport(log))))
-			return !LensReport(log).empty() ? Outcome::NotFinite : Outcome::NotFiniteUpstream;
+		if (!AllFinite(folder / "s.exr", BrightestPixel(report)))
+			return report.empty() ? Outcome::NotFiniteUpstream : Outcome::NotFinite;
 	}
 	catch (const std::exception&)
 	{
 		return Outcome::NoPicture;
 	}
-	if (Contains(LensReport(log), "nan"))
+	if (Contains(report, "nan"))
 		return Outcome::NotANumberInReport;
 	return Outcome::Rendered;
 }
