@@ -19,6 +19,7 @@
 #include <filesystem>
 #include <limits>
 #include <optional>
+#include <sstream>
 
 namespace tiltcal
 {
@@ -118,6 +119,25 @@ void CheckTags(const std::string& text, const std::string& file)
 	const std::string whole = "</opencv_storage>";
 	if (last < whole.size() || text.compare(last - whole.size(), whole.size(), whole) != 0)
 		throw FileError(fmt::format("{}: is cut off, or not OpenCV's: it does not end with {}", file, whole));
+}
+
+/// OpenCV's YAML parser does not come back from some texts with a line that is indented less than its document's first; a first one at the margin leaves no room for such.
+void CheckMargin(const std::string& text, const std::string& file)
+{
+	std::istringstream lines(text);
+	bool first = true;
+	std::string line;
+	for (int number = 1; std::getline(lines, line); ++number)
+	{
+		const bool begins = line.compare(0, 3, "---") == 0, ends = line.compare(0, 3, "...") == 0;
+		const size_t content = line.find_first_not_of(" \t", begins || ends ? 3 : 0);
+		first = first || begins || ends;
+		if (!first || content == std::string::npos || line[content] == '#' || line[0] == '%')
+			continue;
+		if (content > 0)
+			throw FileError(fmt::format("{}, line {}: the first key of its YAML is not at the beginning of a line; give the file that OpenCV's calibration sample writes", file, number));
+		first = false;
+	}
 }
 
 /// For a comment of YAML, where nothing may end the line, and of XML, which has no -- in it.
@@ -285,8 +305,11 @@ StateCamera ReadOpenCv(const std::string& file, double pitch_mm, const std::stri
 	if (text.find('\0') != std::string::npos)
 		throw FileError(fmt::format("{}: is no text: it holds zero bytes", file));
 	CheckNesting(text, file);
-	if (text.find_first_not_of(" \t\n") != std::string::npos && text[text.find_first_not_of(" \t\n")] == '<')
+	const size_t begin = text.find_first_not_of(" \t\n");
+	if (begin != std::string::npos && text[begin] == '<')
 		CheckTags(text, file);
+	else if (begin != std::string::npos && text[begin] != '{')
+		CheckMargin(text, file);
 	OpenCvCamera c;
 	StateCamera camera;
 	try

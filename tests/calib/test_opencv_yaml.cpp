@@ -9,12 +9,15 @@
 #include "support/posed_camera.h"
 
 #include <Eigen/LU>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <opencv2/calib3d.hpp>
 
 #include <cmath>
 #include <fstream>
+#include <initializer_list>
+#include <utility>
 
 namespace
 {
@@ -150,6 +153,34 @@ TEST(OpenCvFiles, CutOffAnywhereAreRefusedOrWhole)
 		std::ofstream(folder.File("camera.xml"), std::ios::binary) << damaged;
 		double lost = 0;
 		EXPECT_THROW(ReadOpenCv(folder.File("camera.xml"), c.pitch_mm, "", lost), Error) << damaged;
+	}
+}
+
+// Found by fuzz-coverage: OpenCV 4.6 itself does not come back from the first three; the others are their kin.
+TEST(OpenCvFiles, WhatIsIndentedLessThanItsFirstKeyIsRefused)
+{
+	const TemporaryFolder folder("tiltcal-opencv-margin");
+	const std::string file = folder.File("camera.yml");
+	for (const auto& [text, line] : std::initializer_list<std::pair<std::string, int>>{
+		{ "%YAML:1.0\n---\n# distortion \xd0\xce\n   rows: 14\n 03, -2.1062409723912041e-03, 0., 0., 0., 0.,\n       0., 0.,\n       -1.0661278062209463e-01, 9.902e-\xd0\xce\xdf\xab\n", 4 },
+		{ "%YAML:1.0\n---\n   rows: 14\n 03, -2.1, 0., 0.,\n   0., 1.0\n", 3 },
+		{ "%YAML:1.0\n---\n   rows: 14\n 03, -2.1,\n       0., 0.\n   -1., 9.\n", 3 },
+		{ "%YAML:1.0\n   rows: 14\n 03, -2.1, 0., 0.,\n   0., 1.0\n", 2 },
+		{ "%YAML:1.0\n---   rows: 14\n 03, -2.1, 0., 0.,\n   0., 1.0\n", 2 },
+		{ "%YAML:1.0\n---\nrows: 14\n...\n---\n   rows: 14\n 03, -2.1, 0., 0.,\n   0., 1.0\n", 6 } })
+	{
+		std::ofstream(file, std::ios::binary) << text;
+		double lost = 0;
+		try
+		{
+			ReadOpenCv(file, 0.02, "", lost);
+			ADD_FAILURE() << text;
+		}
+		catch (const Error& e)
+		{
+			EXPECT_EQ(e.Code(), EXIT_FILE);
+			EXPECT_NE(std::string(e.what()).find(fmt::format("{}, line {}:", file, line)), std::string::npos) << e.what();
+		}
 	}
 }
 
