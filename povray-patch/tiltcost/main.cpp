@@ -134,7 +134,7 @@ void CompleteTable(const Pilot& pilot, Report& report)
 				row.denoised_error = pilot.PredictDenoised(row.setting, &left_out, SpreadParts);
 			row.spread = SpreadOf(pilot, report.pilot.machine, row.setting, left_out);
 		}
-	report.denoise_seconds = DenoiseSecondsPerPixel() * report.pilot.machine.pixels;
+	report.denoise_seconds = report.pilot.machine.denoise_pixel * report.pilot.machine.pixels;
 }
 
 /// A povray that does not tell it, of an older patch, is asked nothing: POV-Ray's own.

@@ -3,6 +3,7 @@
 #include "tiltcost/pilot_run.h"
 
 #include <tiltcal/error.h>
+#include "tiltcost/denoise_cost.h"
 #include "tiltcost/progress.h"
 
 #include <fmt/format.h>
@@ -310,6 +311,9 @@ PilotRun RunPilots(const Job& job, const tiltcal::TemporaryFolder& folder)
 	SortByPlace(run.blocks);
 	NoteChances(choice, run);
 	TakeLesserStart(run, scout);
+	// Where rows are asked for, so is the scene's own setting alone.
+	if (!job.rows || (run.blocks[0].own && run.blocks[0].own->denoise))
+		run.machine.denoise_pixel = DenoiseSecondsPerPixel(job.povray, run.log.width, folder);
 	return run;
 }
 
@@ -344,8 +348,10 @@ FilmRun RunFilmPilots(const Job& job, const tiltcal::TemporaryFolder& folder)
 		TakeLesserStart(film.runs[i], scouts[i]);
 		least = std::min(least, film.runs[i].blocks.size());
 	}
+	const double denoise_pixel = DenoiseSecondsPerPixel(job.povray, scouts[0].log.width, folder);
 	for (size_t i = 0; i < count; ++i)
 	{
+		film.runs[i].machine.denoise_pixel = denoise_pixel;
 		ThinOut(least, film.runs[i].blocks);
 		NoteChances(choices[i], film.runs[i]);
 	}
@@ -359,6 +365,7 @@ PilotRun Joined(const FilmRun& film)
 	joined.log = film.runs[0].log;
 	joined.machine.threads = film.runs[0].machine.threads;
 	joined.machine.rows = film.runs[0].machine.rows;
+	joined.machine.denoise_pixel = film.runs[0].machine.denoise_pixel;
 	joined.machine.rays_per_sample = 0;
 	for (const PilotRun& run : film.runs)
 	{

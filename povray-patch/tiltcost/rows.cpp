@@ -76,7 +76,7 @@ std::string RowsText(const PilotRun& run, const Pilot& pilot, const Setting& set
 	{
 		margin += tilt_lens::DenoiseReach;
 		for (double& row : rows)
-			row += DenoiseSecondsPerPixel() * run.log.width;
+			row += run.machine.denoise_pixel * run.log.width;
 	}
 	const nlohmann::json json = {{"width", run.log.width}, {"height", run.log.height}, {"margin_rows", margin},
 		{"start_cpu_s", run.machine.start_cpu}, {"start_wall_s", run.machine.start_wall}, {"pilot_wall_s", run.wall},

@@ -7,9 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <ctime>
 #include <future>
-#include <random>
 #include <thread>
 
 namespace tiltcost
@@ -105,36 +103,6 @@ std::vector<Row> BestRows(const std::vector<Row>& all)
 	return best;
 }
 
-double DenoiseSecondsPerPixel()
-{
-	static const double seconds = []
-	{
-		// Grain on a slope, half of it of few samples: the kernels of both ways are tried, and used.
-		tilt_lens::NoisyPicture picture;
-		const int width = 480, height = 160;
-		picture.Resize(width, height);
-		std::mt19937 random(1);
-		std::uniform_real_distribution<float> grain(-0.1f, 0.1f);
-		for (int i = 0; i < width * height; ++i)
-		{
-			picture.count[size_t(i)] = i % width < width / 2 ? 8.0f : 64.0f;
-			for (int c = 0; c < 3; ++c)
-			{
-				const float slope = 0.3f + 0.4f * float(i % width) / width, first = slope + grain(random), later = slope + grain(random);
-				picture.first[c][size_t(i)] = first;
-				picture.mean[c][size_t(i)] = (first + later) / 2;
-			}
-		}
-		std::vector<float> denoised[tilt_lens::PictureChannels];
-		for (auto& plane : denoised)
-			plane.assign(picture.count.size(), 0.0f);
-		const std::clock_t start = std::clock();
-		tilt_lens::DenoiseRows(picture, 0, height - 1, denoised);
-		return double(std::clock() - start) / CLOCKS_PER_SEC / (width * height);
-	}();
-	return seconds;
-}
-
 double DenoiseWallSeconds(const Machine& machine)
 {
 	const int threads = std::min(machine.threads, tilt_lens::DenoiseThreads);
@@ -144,14 +112,14 @@ double DenoiseWallSeconds(const Machine& machine)
 		const int bands = (machine.rows + tilt_lens::DenoiseBand - 1) / tilt_lens::DenoiseBand;
 		longest = double((bands + threads - 1) / threads) / bands;
 	}
-	return DenoiseSecondsPerPixel() * machine.pixels * longest;
+	return machine.denoise_pixel * machine.pixels * longest;
 }
 
 Row WithDenoise(const Pilot& pilot, const Machine& machine, Row row)
 {
 	row.setting.denoise = true;
 	row.denoised_error = pilot.PredictDenoised(row.setting);
-	row.cpu += DenoiseSecondsPerPixel() * machine.pixels;
+	row.cpu += machine.denoise_pixel * machine.pixels;
 	row.wall += DenoiseWallSeconds(machine);
 	return row;
 }

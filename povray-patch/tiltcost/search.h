@@ -23,6 +23,7 @@ struct Machine
 	int threads = 1;
 	double rays_per_sample = 1;         ///< three with wavelengths apart, less where rims stop some
 	int rows = 0;                       ///< that are rendered of a picture; 0: not known, and taken to be many
+	double denoise_pixel = 0;           ///< CPU seconds that denoise takes for one
 };
 
 /// One standard deviation of a row's errors and of its time, relative, that come from tracing
@@ -54,9 +55,6 @@ std::vector<Row> BestRows(const std::vector<Row>& all);
 
 /// A figure that is bounded: error, levels or time.
 typedef std::function<double(const Row&)> Figure;
-
-/// CPU seconds that denoise takes for a pixel, measured here and now.
-double DenoiseSecondsPerPixel();
 
 /// Seconds by the clock that denoising the whole picture adds: threads share it by bands of rows.
 double DenoiseWallSeconds(const Machine& machine);

@@ -56,6 +56,7 @@ table)
 	prints "= .*blur_samples 16, 64  variance 0.0001"
 	grep -q '^"s.pov",own,' table.csv || fail "no row of its own in the CSV"
 	[ "$(head -1 table.csv | tr -cd , | wc -c)" = "$(tail -1 table.csv | tr -cd , | wc -c)" ] || fail "the CSV's rows are ragged"
+	awk -F, 'NR > 1 && !($15 > 0) { exit 1 }' table.csv || fail "denoise takes no time"
 	grep -q '<svg' plot.svg || fail "there is no plot, or it is no SVG"
 	# What POV-Ray would have written for itself.
 	[ ! -e s.png ] || fail "the user's picture was written"

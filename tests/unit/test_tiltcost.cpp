@@ -93,7 +93,7 @@ std::string Noisy(int left, bool smooth, int samples)
 TEST(Search, DenoisedWithinATimeIsTheBestOfAllSettings)
 {
 	const Pilot pilot(ParsePilot(Noisy(0, true, 256) + Noisy(16, false, 256) + Noisy(32, true, 256) + Noisy(48, false, 256)));
-	const Machine machine{1e6, 0, 0, 1};
+	const Machine machine{1e6, 0, 0, 1, 1, 0, 1e-6};
 	const std::vector<Row> all = AllRows(pilot, machine), best = BestRows(all);
 	std::vector<Row> denoised;
 	for (const Row& row : all)
@@ -126,7 +126,7 @@ TEST(Search, DenoisedWithinATimeIsTheBestOfAllSettings)
 TEST(Search, DenoisedBelowAnErrorIsOfTheSettingsThatThePilotKnows)
 {
 	const Pilot pilot(ParsePilot(Noisy(0, true, 64) + Noisy(16, true, 64) + Noisy(32, true, 64)));
-	const Machine machine{1e6, 0, 0, 1};
+	const Machine machine{1e6, 0, 0, 1, 1, 0, 1e-6};
 	std::vector<Row> known = BestRows(AllRows(pilot, machine));
 	const auto beyond = [&](const Row& row) { return row.setting.max > pilot.Samples(); };
 	// Between all that are known, one that is not.
@@ -152,7 +152,7 @@ TEST(Search, DenoisedBelowAnErrorIsOfTheSettingsThatThePilotKnows)
 
 TEST(Search, ThreadsShareDenoisingByBands)
 {
-	Machine machine{1e6, 0, 0, 1};
+	Machine machine{1e6, 0, 0, 1, 1, 0, 1e-6};
 	const double one = DenoiseWallSeconds(machine);
 	const auto share = [&](int threads, int rows)
 	{
