@@ -15,8 +15,6 @@ namespace tiltcal
 namespace
 {
 
-/// As many as can be held against each other (by_photographs.h).
-const size_t LEAST_PHOTOGRAPHS = 3;
 /// The farther side over the nearer one: a board as wide as a third of its distance, turned by 20 degrees, gives 1.12.
 const double INCLINED = 1.1;
 /// Directions to which boards must recede, so that the image distance and both coordinates of the axis are told.

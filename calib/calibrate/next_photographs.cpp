@@ -21,8 +21,6 @@ namespace tiltcal
 namespace
 {
 
-/// Photographs of a state, so that they can be held against each other (by_photographs.h).
-const size_t LEAST_PHOTOGRAPHS = 3;
 const size_t MOST_SUGGESTED = 3;
 /// A part of the picture where no board was says nothing of the light and the distortion there, which no sigma here holds.
 const double WORTH_OF_NEW_THIRDS = 0.5;

@@ -9,11 +9,15 @@
 
 #include <tiltcal/calibration.h>
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
 namespace tiltcal
 {
+
+/// Photographs of a state, so that they can be held against each other (by_photographs.h).
+constexpr size_t LEAST_PHOTOGRAPHS = 3;
 
 /// Of a finished calibration of an exact model.
 NextPhotographs FindNextPhotographs(const Calibration& calibration);
