@@ -123,8 +123,8 @@ std::vector<Row> MeasureAll(Source& source, const std::string& data, int draws, 
 }
 
 /// The exact models must be right where their assumptions hold: within the noise of
-/// the mean and the 0.01 degrees of what is of second order in the aperture. They must answer from as many photographs as tiltcal asks for;
-/// of fewer it says so, and may refuse: `rigid` takes aperture and focus from the untilted ones alone.
+/// the mean and the 0.01 degrees of what is of second order in the aperture. They must answer, but for `rigid` of fewer photographs
+/// than tiltcal asks for: it takes aperture and focus from the untilted ones alone, and may refuse.
 bool ExactModelsAreUnbiased(const std::vector<Row>& rows)
 {
 	bool good = true;
@@ -132,7 +132,8 @@ bool ExactModelsAreUnbiased(const std::vector<Row>& rows)
 	{
 		if (row.model == "paper")
 			continue;
-		if (row.answers < std::min(row.draws, 2) && row.effort.photos >= int(tiltcal::LEAST_PHOTOGRAPHS))
+		const bool may_refuse = row.model == "rigid" && row.effort.photos < int(tiltcal::LEAST_PHOTOGRAPHS);
+		if (row.answers < std::min(row.draws, 2) && !may_refuse)
 		{
 			fmt::print(stderr, "calibrator_cost: model {} answers {} of {} times on exact data ({} photographs, {} edges)\n", row.model, row.answers, row.draws,
 				row.effort.photos, row.effort.edges);
