@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: AGPL-3.0-or-later
 //
 // tiltcost's predictions against renders: camera rays and CPU time against the render's own, errors, raw and denoised, against a truth of
-// other lens samples. Predictions are made once, before anything is rendered. Writes tiltcost.csv and tiltcost.html (a fragment for the
-// report) and fails when a prediction is out of bounds.
+// other lens samples. Errors and rays are predicted once, seconds in turn with the renders. Writes tiltcost.csv
+// and tiltcost.html (a fragment for the report) and fails when a prediction is out of bounds.
 //
 // Without options at the size and with the blocks of COSTS.md: 240 of 1920 x 1080 pixels. --small is ctest's: there seconds are shown, not
 // judged, for renders of tenths of a second say more of what else the machine does than of the prediction; rays are the same on every machine.
+
+#include "prediction_result.h"
 
 #include "base/files.h"
 #include "program/process.h"
@@ -21,21 +23,19 @@
 #include <fstream>
 #include <stdexcept>
 #include <thread>
+#include <tuple>
+#include <utility>
 
 namespace fs = std::filesystem;
 
 namespace
 {
 
-/// What is promised (COSTS.md), where the pilot's blocks are a fair sample of the picture.
-const double TimeBound = 0.25, ErrorBound = 0.30;
-/// Where they are not, tiltcost says so by its standard deviation, a jackknife over ten groups of blocks: Student's t with 9 degrees of
-/// freedom is beyond this once in a thousand. Of twenty-two scenes and figures, whose two settings share a pilot, one day in fifty.
-const double Student = 4.78;
-/// A prediction that is wrong by a factor of two, up or down, is none, whatever it says of itself: no bound is wider, and a standard deviation whose bound would be is a failure itself.
-/// Else whoever says to know less and less of his own predictions could never be wrong.
-const double MostBound = 1.0, MostSigma = MostBound / Student;
 const double Errors[] = {0.01, 0.004};
+/// A machine's speed may drift by a third within minutes. So prediction and renders follow each other, short renders in several such turns. How many is known
+/// beforehand, and all count.
+const double LongRender = 30; // CPU s
+const int MostTurns = 3;
 
 struct Effort
 {
@@ -73,40 +73,6 @@ struct Predicted
 {
 	std::vector<Row> rows;
 	double share = 0;                      ///< of the picture's pixels
-};
-
-/// `off` is predicted / true - 1. A bound beyond the promise is a factor, the same one down as up: what is 100 % too much one way is half the other.
-bool Within(double off, double limit, double promise) { return off <= limit && off >= std::min(-promise, 1 / (1 + limit) - 1); }
-
-struct Result
-{
-	std::string scene;
-	Row predicted;
-	double share = 0;
-	double error = 0, uncertain = 0, rays = 0, cpu = 0;   ///< as rendered; `uncertain`: one standard deviation of `error`, relative
-	double denoised = 0, denoised_uncertain = 0;          ///< errors of the same with denoise, where they are predicted
-	double denoised_cpu = 0;
-
-	double ErrorOff() const { return predicted.error / error - 1; }
-	double RaysOff() const { return predicted.rays / rays - 1; }
-	double TimeOff() const { return predicted.cpu / cpu - 1; }
-	double DenoisedOff() const { return denoised > 0 ? predicted.denoised_error / denoised - 1 : 0; }
-	/// Of both together: what denoising takes is a few seconds of many.
-	double DenoisedTimeOff() const { return denoised > 0 ? (predicted.cpu + predicted.denoise_cpu) / denoised_cpu - 1 : 0; }
-	double ErrorLimit() const { return std::min(MostBound, std::max(ErrorBound, Student * std::hypot(predicted.error_sigma, uncertain))); }
-	double DenoisedLimit() const { return std::min(MostBound, std::max(ErrorBound, Student * std::hypot(predicted.denoised_sigma, denoised_uncertain))); }
-	double TimeLimit() const { return std::min(MostBound, std::max(TimeBound, Student * predicted.time_sigma)); }
-	/// Of errors always; of times where they are judged, for elsewhere they are the machine's.
-	bool SigmasPromise(bool judge_time) const
-	{
-		return predicted.error_sigma <= MostSigma && (denoised <= 0 || predicted.denoised_sigma <= MostSigma) && (!judge_time || predicted.time_sigma <= MostSigma);
-	}
-	/// Time is rays times what one takes: the bound of the product holds for the factor that is the machine's no affair.
-	bool Good(bool judge_time) const
-	{
-		return SigmasPromise(judge_time) && Within(ErrorOff(), ErrorLimit(), ErrorBound) && Within(DenoisedOff(), DenoisedLimit(), ErrorBound) && Within(RaysOff(), TimeLimit(), TimeBound)
-			&& (!judge_time || (Within(TimeOff(), TimeLimit(), TimeBound) && Within(DenoisedTimeOff(), TimeLimit(), TimeBound)));
-	}
 };
 
 struct Places
@@ -188,12 +154,14 @@ Rendered Render(const Places& places, const Scene& scene, const Row& row, int se
 	return result;
 }
 
-/// The table.
-Predicted RunTiltcost(const Places& places, const Scene& scene, unsigned threads)
+/// The table, which has rows of the `settings` too.
+Predicted RunTiltcost(const Places& places, const Scene& scene, unsigned threads, const std::vector<Row>& settings)
 {
 	const fs::path csv = places.out / "prediction.csv", log = places.out / "tiltcost.log";
 	std::vector<std::string> command = {places.tiltcost, "--povray", places.povray, "--csv", csv.string(), "--pilot-time", places.effort.pilot_time,
 		"--pilot-blocks", fmt::format("{}", places.effort.pilot_blocks)};
+	for (const Row& setting : settings)
+		command.insert(command.end(), {"--setting", fmt::format("{},{},{:.9g},{:.9g}", setting.min, setting.max, setting.variance, setting.confidence)});
 	Row own;
 	own.max = 128;
 	own.variance = 0.0001;
@@ -207,6 +175,20 @@ Predicted RunTiltcost(const Places& places, const Scene& scene, unsigned threads
 	for (const TiltcostRow& row : ReadTiltcostTable(csv))
 		predicted.rows.push_back({row, false});
 	return predicted;
+}
+
+/// The row whose error is nearest.
+const Row& RowOfError(const std::vector<Row>& rows, double error)
+{
+	return *std::min_element(rows.begin(), rows.end(), [&](const Row& a, const Row& b) { return std::abs(std::log(a.error / error)) < std::abs(std::log(b.error / error)); });
+}
+
+const Row& RowOfSetting(const std::vector<Row>& rows, const Row& setting)
+{
+	for (const Row& row : rows)
+		if (row.min == setting.min && row.max == setting.max && std::abs(row.variance / setting.variance - 1) < 1e-6)
+			return row;
+	throw std::runtime_error(fmt::format("tiltcost's table has no row of the setting asked for, {},{},{:g}", setting.min, setting.max, setting.variance));
 }
 
 unsigned AllThreads()
@@ -242,13 +224,8 @@ Truth RenderTruth(const Places& places, const Scene& scene)
 	return truth;
 }
 
-struct Judged
-{
-	double error = 0, uncertain = 0;
-};
-
-/// The picture's error: its square distance from the truth less the truth's own. How uncertain that is, is seen in blocks of 16 x 16 pixels.
-Judged Judge(const Picture& picture, const Truth& truth, const std::string& scene)
+/// The picture's error and how uncertain it is, one standard deviation of it, relative: its square distance from the truth less the truth's own. The latter is seen in blocks of 16 x 16 pixels.
+std::pair<double, double> Judge(const Picture& picture, const Truth& truth, const std::string& scene)
 {
 	const int size = 16, across = (picture.width + size - 1) / size, down = (picture.height + size - 1) / size;
 	std::vector<double> sums(size_t(across) * size_t(down), 0.0);
@@ -268,66 +245,60 @@ Judged Judge(const Picture& picture, const Truth& truth, const std::string& scen
 	return {std::sqrt(sum / double(picture.rgb.size())), std::sqrt(squares) / sum / 2};
 }
 
+int TurnsOf(const Result& result) { return std::clamp(int(std::ceil(LongRender / result.predicted.cpu)), 1, MostTurns); }
+
+/// Pixels, and so errors and rays, are the same in each turn; seconds are added up.
+void RenderTurn(const Places& places, const Scene& scene, const Truth& truth, unsigned threads, Result& result)
+{
+	const bool first = result.cpu == 0;
+	const Rendered raw = Render(places, scene, {result.predicted, false}, 0, threads);
+	result.cpu += raw.cpu;
+	result.rays = raw.rays;
+	if (first)
+		std::tie(result.error, result.uncertain) = Judge(raw.picture, truth, scene.name);
+	if (result.predicted.denoised_error <= 0)
+		return;
+	const Rendered denoised = Render(places, scene, {result.predicted, true}, 0, threads);
+	result.denoised_cpu += denoised.cpu;
+	if (first)
+		std::tie(result.denoised, result.denoised_uncertain) = Judge(denoised.picture, truth, scene.name);
+}
+
+/// Seconds of the results are means of their turns.
 std::vector<Result> CheckScene(const Places& places, const Scene& scene)
 {
 	const unsigned threads = places.effort.judge_time ? 1 : AllThreads();
-	const Predicted predicted = RunTiltcost(places, scene, threads);
 	const Truth truth = RenderTruth(places, scene);
+	const Predicted predicted = RunTiltcost(places, scene, threads, {});
 	std::vector<Result> results;
+	std::vector<Row> settings;
+	std::vector<int> turns;
 	for (const double error : Errors)
 	{
-		const Row row = *std::min_element(predicted.rows.begin(), predicted.rows.end(),
-			[&](const Row& a, const Row& b) { return std::abs(std::log(a.error / error)) < std::abs(std::log(b.error / error)); });
-		Result result = {scene.name, row, predicted.share};
-		const Rendered rendered = Render(places, scene, row, 0, threads);
-		const Judged raw = Judge(rendered.picture, truth, scene.name);
-		result.error = raw.error;
-		result.uncertain = raw.uncertain;
-		result.rays = rendered.rays;
-		result.cpu = rendered.cpu;
-		if (row.denoised_error > 0)
-		{
-			Row with = row;
-			with.denoise = true;
-			const Rendered made = Render(places, scene, with, 0, threads);
-			const Judged denoised = Judge(made.picture, truth, scene.name);
-			result.denoised_cpu = made.cpu;
-			result.denoised = denoised.error;
-			result.denoised_uncertain = denoised.uncertain;
-		}
-		results.push_back(result);
+		settings.push_back(RowOfError(predicted.rows, error));
+		results.push_back({scene.name, settings.back(), predicted.share});
+		turns.push_back(places.effort.judge_time ? TurnsOf(results.back()) : 1);
 	}
-	return results;
-}
-
-std::string DenoisedCells(const Result& r)
-{
-	if (r.denoised <= 0)
-		return "<td>-</td><td></td><td></td><td></td>";
-	return fmt::format("<td>{:.4f}</td><td>{:.4f}</td><td>{:+.0f} %</td><td>{:.0f} %</td>", r.predicted.denoised_error, r.denoised, 100 * r.DenoisedOff(), 100 * r.DenoisedLimit());
-}
-
-void Write(const Places& places, const std::vector<Result>& results)
-{
-	std::string csv = "scene,min,max,variance,predicted_error,predicted_error_sigma,error,error_sigma,predicted_rays,rays,predicted_cpu_s,predicted_cpu_sigma,cpu_s,pilot_share,predicted_denoised_error,predicted_denoised_error_sigma,denoised_error,denoised_error_sigma,predicted_denoised_cpu_s,denoised_cpu_s\n";
-	std::string html = fmt::format("<h2>tiltcost: predicted and rendered</h2>\n<p>{} × {} pixels, predicted once before anything is rendered, from the part of the picture that stands beside it. Errors against "
-		"truths with other lens samples, whose own error is taken off. Bounds: {:.0f} % in rays{}, {:.0f} % in error, or {:.2f} standard deviations (Student's t, once in 1000) where those are wider, never more than {:.0f} %, and no standard "
-		"deviation that is told may be beyond {:.0f} %."
-		"</p>\n<table><tr><th>scene</th><th>pilot</th><th>blur_samples, variance</th><th>error predicted</th><th>rendered</th><th>off by</th><th>bound</th>"
-		"<th>denoised, predicted</th><th>rendered</th><th>off by</th><th>bound</th><th>rays predicted</th><th>rendered</th><th>off by</th><th>CPU s predicted</th><th>rendered</th><th>off by</th><th>denoised, off by</th><th>bound</th></tr>\n", places.effort.width, places.effort.height, 100 * TimeBound,
-		places.effort.judge_time ? " and in time" : " (seconds are shown, not judged)", 100 * ErrorBound, Student, 100 * MostBound, 100 * MostSigma);
-	for (const Result& r : results)
+	for (int turn = 0; turn < *std::max_element(turns.begin(), turns.end()); ++turn)
 	{
-		const Row& p = r.predicted;
-		csv += fmt::format("{},{},{},{:g},{:.5g},{:.3g},{:.5g},{:.3g},{:.0f},{:.0f},{:.4g},{:.3g},{:.4g},{:.4g},{:.5g},{:.3g},{:.5g},{:.3g},{:.4g},{:.4g}\n", r.scene, p.min, p.max, p.variance, p.error, p.error_sigma, r.error, r.uncertain,
-			p.rays, r.rays, p.cpu, p.time_sigma, r.cpu, r.share, r.denoised > 0 ? p.denoised_error : 0, p.denoised_sigma, r.denoised, r.denoised_uncertain, p.cpu + p.denoise_cpu, r.denoised_cpu);
-		html += fmt::format("<tr{}><td>{}</td><td>{:.1f} %</td><td>{}, {}, {:g}</td><td>{:.4f}</td><td>{:.4f}</td><td>{:+.0f} %</td><td>{:.0f} %</td>{}<td>{:.0f}</td><td>{:.0f}</td><td>{:+.0f} %</td>"
-			"<td>{:.2f}</td><td>{:.2f}</td><td>{:+.0f} %</td><td>{:+.0f} %</td><td>{:.0f} %</td></tr>\n", r.Good(places.effort.judge_time) ? "" : " class=\"lost\"", r.scene, 100 * r.share, p.min, p.max, p.variance, p.error, r.error, 100 * r.ErrorOff(), 100 * r.ErrorLimit(),
-			DenoisedCells(r), p.rays, r.rays, 100 * r.RaysOff(), p.cpu, r.cpu, 100 * r.TimeOff(), 100 * r.DenoisedTimeOff(), 100 * r.TimeLimit());
+		const Predicted now = turn == 0 ? predicted : RunTiltcost(places, scene, threads, settings);
+		for (size_t i = 0; i < results.size(); ++i)
+		{
+			if (turn >= turns[i])
+				continue;
+			if (turn > 0)
+			{
+				const Row& again = RowOfSetting(now.rows, settings[i]);
+				results[i].predicted.cpu += again.cpu;
+				results[i].predicted.denoise_cpu += again.denoise_cpu;
+			}
+			RenderTurn(places, scene, truth, threads, results[i]);
+		}
 	}
-	html += "</table>\n";
-	std::ofstream(places.out / "tiltcost.csv") << csv;
-	std::ofstream(places.out / "tiltcost.html") << html;
+	for (size_t i = 0; i < results.size(); ++i)
+		for (double* seconds : {&results[i].predicted.cpu, &results[i].predicted.denoise_cpu, &results[i].cpu, &results[i].denoised_cpu})
+			*seconds /= turns[i];
+	return results;
 }
 
 }
@@ -366,14 +337,11 @@ int main(int argc, char** argv)
 			for (const Result& r : CheckScene(places, scene))
 			{
 				results.push_back(r);
-				const Row& p = r.predicted;
-				fmt::print("{} {:<11} {:4.1f} %  {:>2}, {:>4}, {:<7g} error {:.5f} is {:.5f} ({:+3.0f} % of {:.0f} %; known to {:.1f} %)  denoised {:.5f} is {:.5f} ({:+3.0f} % of {:.0f} %)  rays {:.0f} is {:.0f} ({:+3.0f} %)  CPU {:6.2f} s is {:6.2f} s ({:+3.0f}, denoised {:+3.0f} % of {:.0f} %)\n",
-					r.Good(places.effort.judge_time) ? ' ' : '!', r.scene, 100 * r.share, p.min, p.max, p.variance, p.error, r.error, 100 * r.ErrorOff(), 100 * r.ErrorLimit(), 100 * r.uncertain,
-					r.denoised > 0 ? p.denoised_error : 0, r.denoised, 100 * r.DenoisedOff(), 100 * r.DenoisedLimit(), p.rays, r.rays, 100 * r.RaysOff(), p.cpu, r.cpu, 100 * r.TimeOff(), 100 * r.DenoisedTimeOff(), 100 * r.TimeLimit());
+				fmt::print("{}\n", Line(r, places.effort.judge_time));
 				std::fflush(stdout);
 			}
 		}
-		Write(places, results);
+		WritePredictions(places.out, results, {places.effort.width, places.effort.height, places.effort.judge_time});
 		return std::all_of(results.begin(), results.end(), [&](const Result& r) { return r.Good(places.effort.judge_time); }) ? 0 : 1;
 	}
 	catch (const std::exception& e)
