@@ -245,7 +245,7 @@ std::pair<double, double> Judge(const Picture& picture, const Truth& truth, cons
 	return {std::sqrt(sum / double(picture.rgb.size())), std::sqrt(squares) / sum / 2};
 }
 
-int TurnsOf(const Result& result) { return std::clamp(int(std::ceil(LongRender / result.predicted.cpu)), 1, MostTurns); }
+int TurnsOf(const Row& row) { return std::clamp(int(std::ceil(LongRender / row.cpu)), 1, MostTurns); }
 
 /// Pixels, and so errors and rays, are the same in each turn; seconds are added up.
 void RenderTurn(const Places& places, const Scene& scene, const Truth& truth, unsigned threads, Result& result)
@@ -277,7 +277,8 @@ std::vector<Result> CheckScene(const Places& places, const Scene& scene)
 	{
 		settings.push_back(RowOfError(predicted.rows, error));
 		results.push_back({scene.name, settings.back(), predicted.share});
-		turns.push_back(places.effort.judge_time ? TurnsOf(results.back()) : 1);
+		turns.push_back(places.effort.judge_time ? TurnsOf(settings.back()) : 1);
+		results.back().predicted.cpu = results.back().predicted.denoise_cpu = 0; // the turns add them up
 	}
 	for (int turn = 0; turn < *std::max_element(turns.begin(), turns.end()); ++turn)
 	{
@@ -286,12 +287,9 @@ std::vector<Result> CheckScene(const Places& places, const Scene& scene)
 		{
 			if (turn >= turns[i])
 				continue;
-			if (turn > 0)
-			{
-				const Row& again = RowOfSetting(now.rows, settings[i]);
-				results[i].predicted.cpu += again.cpu;
-				results[i].predicted.denoise_cpu += again.denoise_cpu;
-			}
+			const Row& said = RowOfSetting(now.rows, settings[i]);
+			results[i].predicted.cpu += said.cpu;
+			results[i].predicted.denoise_cpu += said.denoise_cpu;
 			RenderTurn(places, scene, truth, threads, results[i]);
 		}
 	}
