@@ -18,7 +18,7 @@ place_boxes("${OUT}/calibration")
 
 foreach(state IN LISTS STATES)
 	step("rendering the boxes, ${state}: 1800 x 1200, ${SAMPLES} lens samples per pixel, denoised")
-	render_boxes("${OUT}/calibration" ${state} "${OUT}/render-${state}.exr" ${SAMPLES} log Declare=TiltCal_Denoise=1)
+	render_boxes("${OUT}/calibration" ${state} "${OUT}/render-${state}.exr" ${SAMPLES} log ${DEMO_OPTIONS})
 	file(WRITE "${OUT}/render-${state}.txt" "${log}")
 	if(log MATCHES "\n(Tilt lens[^\n]*\n([^-=\n][^\n]*\n)*)")
 		message("${CMAKE_MATCH_1}") # the block of the render statistics

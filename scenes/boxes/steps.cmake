@@ -11,6 +11,7 @@ include("${CMAKE_CURRENT_LIST_DIR}/../cmake/script.cmake")
 set(STATES untilted plus5 minus5) # boxes.pov numbers them so
 set(RED_LINE 0,660,1799,660)
 set(GREEN_LINE 900,0,900,1199)
+set(DEMO_OPTIONS Declare=TiltCal_Denoise=1) # what is subtracted from a render of the demo needs the same grain
 if(NOT DEFINED PHOTOS)
 	set(PHOTOS "${SCENE}/photos")
 endif()

@@ -75,10 +75,10 @@ function(compare photo picture folder state match)
 	run(LOG "${folder}/${state}-${match}/log.txt" COMMAND ${command})
 endfunction()
 
-# boxes_against(PHOTOGRAPHS SUFFIX CALIBRATION SAMPLES SEED PICTURES PROFILES): all states through that camera, and Table 2's numbers with one gain.
+# boxes_against(PHOTOGRAPHS SUFFIX CALIBRATION SAMPLES SEED PICTURES PROFILES OPTIONS...): all states through that camera, and Table 2's numbers with one gain.
 function(boxes_against photographs photo_suffix calibration samples seed pictures profiles)
 	foreach(state IN LISTS STATES)
-		boxes("${calibration}" ${state} ${samples} ${seed} "${pictures}/${state}.exr")
+		boxes("${calibration}" ${state} ${samples} ${seed} "${pictures}/${state}.exr" ${ARGN})
 		compare("${photographs}/${state}.${photo_suffix}" "${pictures}/${state}.exr" "${profiles}" ${state} gain)
 	endforeach()
 endfunction()
@@ -119,7 +119,7 @@ if(PHOTOS)
 endif()
 set(photos "${SCENE}/photos")
 set(PHOTOS "${photos}")
-include("${SCENES}/boxes/steps.cmake") # STATES, which boxes.pov and board.pov number so; place_boxes
+include("${SCENES}/boxes/steps.cmake") # STATES, which boxes.pov and board.pov number so; place_boxes; DEMO_OPTIONS
 
 step("the demo: calibration, three renders of ${SAMPLES} samples a pixel, profiles")
 has("${OUT}/demo/summary.md" there)
@@ -143,7 +143,7 @@ calibrate("${OUT}/models/default" "${photos}/target" jpg)
 
 step("sampling noise: the renders again with another seed")
 foreach(state IN LISTS STATES)
-	boxes("${calibration}" ${state} ${SAMPLES} 1 "${OUT}/seed1/${state}.exr")
+	boxes("${calibration}" ${state} ${SAMPLES} 1 "${OUT}/seed1/${state}.exr" ${DEMO_OPTIONS})
 endforeach()
 
 # Of the mean of both seeds: compression takes some of a render's grain off, which a photograph has not got.
@@ -185,7 +185,7 @@ calibrate("${closed}/calibration" "${closed}/photos" ${suffix})
 
 step("closed loop: the boxes through the camera found, placed by the closed loop's own photograph of them")
 place_boxes("${closed}/calibration" "${OUT}/noise/untilted.${suffix}")
-boxes_against("${OUT}/noise" ${suffix} "${closed}/calibration" ${SAMPLES} 2 "${closed}" "${closed}/profiles")
+boxes_against("${OUT}/noise" ${suffix} "${closed}/calibration" ${SAMPLES} 2 "${closed}" "${closed}/profiles" ${DEMO_OPTIONS})
 
 step("what a thin lens cannot know: Table 2 with fewer effects, ${EFFECT_SAMPLES} samples a pixel")
 has("${OUT}/effects/shares.md" there)

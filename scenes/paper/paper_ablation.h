@@ -16,7 +16,7 @@ struct StatePictures
 {
 	cv::Mat photograph;
 	cv::Mat render;             ///< through the calibrated camera
-	cv::Mat render_seed1;       ///< the same with another seed
+	cv::Mat render_seed1;       ///< the same with another seed: all three renders are denoised, or none
 	cv::Mat render_as_photo;    ///< the mean of both through sensor and file format, with the gain of the photograph
 	cv::Mat closed;             ///< through the camera that was calibrated from boards that the calibrated camera photographed; a third seed
 };

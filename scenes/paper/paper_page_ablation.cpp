@@ -160,7 +160,7 @@ std::string HowSeparated(const Json& results)
 	return "<h3>How each part was separated</h3>\n<dl>\n"
 		"<dt>noise of the photograph</dt><dd>The render, times the gain, is given the sensor’s noise (" + electrons + ": <code>camera.json</code>), rounded to 8 bits and "
 		"compressed with the photograph’s own quantisation tables; its difference to the render itself is what the photograph’s file alone does (the mean of two seeds is taken, so that compression finds little grain to take off). Legitimate because noise and compression do not know what lens made the picture.</dd>\n"
-		"<dt>sampling noise of the render</dt><dd>Two renders that differ in nothing but the seed; each has half the square of their difference.</dd>\n"
+		"<dt>sampling noise of the render</dt><dd>Two renders that differ in nothing but the seed, both denoised, as the demo’s are; each has half the square of their difference. What denoising takes off the scene is the same in both, and counts as model error.</dd>\n"
 		"<dt>calibration error</dt><dd>A closed loop: the calibrated camera itself photographs board and boxes (noise, 8 bits, compression), <code>tiltcal</code> calibrates from these pictures as it does from the photographs, "
 		"and the boxes are rendered through what it finds. Start and result differ by the calibration’s error and by the renders’ sampling noise, which is taken off. Lens and model are the same here, so that no error of the model is in it. "
 		"It is one draw: another one’s noise would give another error of this size.</dd>\n"
@@ -195,7 +195,7 @@ std::string Curve(const Json& results, const std::string& out)
 	Rows rows{ { "samples a pixel", "mean", "RMS", "CPU seconds for a tenth of the picture" } };
 	for (const Json& point : results.at("curve"))
 		rows.push_back({ std::to_string(int(point.at("samples"))), Number(point.at("mean_abs"), 3), Number(point.at("rms"), 3), Number(point.at("cpu_seconds"), 1) });
-	return "<h3>Sampling noise is a matter of time</h3>\n<p>State +5°, the 120 rows about the red line, two seeds at every number of samples.</p>\n<div class=\"pair\"><div>"
+	return "<h3>Sampling noise is a matter of time</h3>\n<p>State +5°, the 120 rows about the red line, two seeds at every number of samples, not denoised.</p>\n<div class=\"pair\"><div>"
 		+ SvgImage(out + "/curve.svg", "Sampling noise over CPU seconds") + "</div><div>" + tiltcal::html::Table(rows) + "</div></div>\n";
 }
 

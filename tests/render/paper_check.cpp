@@ -106,7 +106,7 @@ void CheckAblation(const Json& results)
 		Check(beyond > 1, std::string(state) + ": beyond noise and grain " + Said(beyond));
 		// Nine photographs and 60 edges leave the principal point free by 0.7 px, and the closed loop's draw of it may be larger than the
 		// photographs': the share of the model, and of it that of the displacement, may then be below zero. What is left once both are
-		// displaced may not, beyond chance: a tenth of the whole, half of which is grain with 8 samples.
+		// displaced may not, beyond chance: a tenth of the whole.
 		for (const char* const part : { "calibration", "rest" })
 			Check(double(squares.at(part)) > -0.1 * whole, std::string(state) + ", " + part + ": " + Said(squares.at(part)) + " of " + Said(whole));
 		// Squares add: predicted from noise and calibration, and measured. They differ by the mean of the product, which falls with the root of

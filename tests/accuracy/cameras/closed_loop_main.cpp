@@ -158,6 +158,8 @@ try
 	app.add_option("--refused", o.refused, "A set that is expected to be refused, or not to be photographed: what its camera and light begin with ('45 mm at infinity', 'random 3, snr20'). Any other without an answer: exit code 1");
 	app.add_option("--within", o.within, "LEAST MOST: exit code 1 when the true share of all numbers inside 2 sigma, with 95 %, lies wholly outside of these, or that of one kind wholly below LEAST")->expected(2)->check(CLI::Range(0.0, 1.0));
 	CLI11_PARSE(app, argc, argv);
+	if (const auto folder = std::filesystem::path(o.out).parent_path(); !folder.empty())
+		std::filesystem::create_directories(folder);
 	std::vector<Result> results;
 	const bool nothing_asked = o.only.empty() && o.random == 0;
 	const auto quick = [&](const Camera& camera) { return o.megapixels > 0 ? Quick(camera, o.megapixels) : camera; };
