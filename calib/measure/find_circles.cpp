@@ -118,11 +118,15 @@ double Light(const cv::Mat& grey, const Vec2& p)
 
 /// Contrast of the circle at `place`, there or not, to the darkest of what lies around it (white circles: the brightest), so that a change of the
 /// ground is not one: |around - middle| / (around + middle), negative when it is the other way round. -2: outside the picture.
-double Contrast(const cv::Mat& grey, const Board& board, const GridMap& map, const Vec2& place, bool bright)
+/// `along`: half a step to the circle's neighbours on either side, between which is looked too; zero: not.
+double Contrast(const cv::Mat& grey, const Board& board, const GridMap& map, const Vec2& place, bool bright, const Vec2& along = Vec2::Zero())
 {
 	const bool diagonal = board.kind == TargetKind::CIRCLES;
 	std::vector<double> around;
 	double middle = 0;
+	for (const double side : { -1.0, 1.0 })
+		if (const double far = along.isZero() ? -1 : Light(grey, map.Pixel(place + side * along)); far >= 0)
+			around.push_back(far);
 	for (int k = 0; k < 4; ++k)
 	{
 		const double t = Pi / 2 * k + (diagonal ? Pi / 4 : 0);
@@ -161,26 +165,28 @@ bool Plausible(const cv::Mat& grey, const Board& board, const std::vector<Corner
 void RefuseLarger(const cv::Mat& grey, const Board& board, const std::vector<Corner>& centres, bool bright, const std::string& file)
 {
 	const GridMap map(centres);
-	std::vector<double> inside;
-	for (const Corner& c : centres)
-		inside.push_back(Contrast(grey, board, map, Vec2(c.column, c.row), bright));
-	const double least = 0.4 * Median(inside);
-	const auto check = [&](const char* side, int count, auto place)
+	// `row`: half a step along the row or column. Where the ground ends beyond the outermost circles, and the picture soon after, only what lies beside a place tells that it is no circle.
+	const auto check = [&](const char* side, int count, const Vec2& row, auto place)
 	{
-		std::vector<double> beyond;
+		std::vector<double> inside, beyond;
+		for (const Corner& c : centres)
+			inside.push_back(Contrast(grey, board, map, Vec2(c.column, c.row), bright, row));
 		for (int k = 0; k < count; ++k)
 		{
-			const double c = Contrast(grey, board, map, place(k), bright);
+			const double c = Contrast(grey, board, map, place(k), bright, row);
 			if (c > -2)
 				beyond.push_back(c);
 		}
-		if (2 * beyond.size() >= size_t(count) && Median(beyond) > least)
+		if (2 * beyond.size() >= size_t(count) && Median(beyond) > 0.4 * Median(inside))
 			throw Refused(fmt::format("{}: the grid goes on beyond {}x{} circles at its {}: count the circles again for `board`", file, board.columns, board.rows, side));
 	};
-	check("left", board.rows, [&](int j) { return Vec2(board.CircleColumn(-1, j), j); });
-	check("right", board.rows, [&](int j) { return Vec2(board.CircleColumn(board.columns, j), j); });
-	check("top", board.columns, [&](int i) { return Vec2(board.CircleColumn(i, -1), -1); });
-	check("bottom", board.columns, [&](int i) { return Vec2(board.CircleColumn(i, board.rows), board.rows); });
+	// Contrast() looks there anyway in asymmetric grids.
+	const double half = board.kind == TargetKind::CIRCLES ? 0.5 : 0;
+	const Vec2 across(half, 0), down(0, half);
+	check("left", board.rows, down, [&](int j) { return Vec2(board.CircleColumn(-1, j), j); });
+	check("right", board.rows, down, [&](int j) { return Vec2(board.CircleColumn(board.columns, j), j); });
+	check("top", board.columns, across, [&](int i) { return Vec2(board.CircleColumn(i, -1), -1); });
+	check("bottom", board.columns, across, [&](int i) { return Vec2(board.CircleColumn(i, board.rows), board.rows); });
 }
 
 bool RightHanded(const Points& p, const Board& b)
