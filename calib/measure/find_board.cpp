@@ -66,8 +66,9 @@ std::vector<double> Scales(const cv::Mat& picture, cv::Size inner)
 		reduce_to(target);
 	if (longer <= LARGE)
 		scales.push_back(1);
+	// In smaller pictures anything looks like a board of few squares.
 	for (const double square : { 40.0, 28.0 })
-		reduce_to(square * squares);
+		reduce_to(std::max(250.0, square * squares));
 	return scales;
 }
 
