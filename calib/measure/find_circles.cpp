@@ -165,28 +165,34 @@ bool Plausible(const cv::Mat& grey, const Board& board, const std::vector<Corner
 void RefuseLarger(const cv::Mat& grey, const Board& board, const std::vector<Corner>& centres, bool bright, const std::string& file)
 {
 	const GridMap map(centres);
-	// `row`: half a step along the row or column. Where the ground ends beyond the outermost circles, and the picture soon after, only what lies beside a place tells that it is no circle.
-	const auto check = [&](const char* side, int count, const Vec2& row, auto place)
+	// `along`: half a step along the row or column. Where the ground ends beyond the outermost circles, and the picture soon after, only what lies beside a place tells that it is no circle.
+	const auto least = [&](const Vec2& along)
 	{
-		std::vector<double> inside, beyond;
+		std::vector<double> inside;
 		for (const Corner& c : centres)
-			inside.push_back(Contrast(grey, board, map, Vec2(c.column, c.row), bright, row));
+			inside.push_back(Contrast(grey, board, map, Vec2(c.column, c.row), bright, along));
+		return 0.4 * Median(inside);
+	};
+	const auto check = [&](const char* side, int count, const Vec2& along, double least_contrast, auto place)
+	{
+		std::vector<double> beyond;
 		for (int k = 0; k < count; ++k)
 		{
-			const double c = Contrast(grey, board, map, place(k), bright, row);
+			const double c = Contrast(grey, board, map, place(k), bright, along);
 			if (c > -2)
 				beyond.push_back(c);
 		}
-		if (2 * beyond.size() >= size_t(count) && Median(beyond) > 0.4 * Median(inside))
+		if (2 * beyond.size() >= size_t(count) && Median(beyond) > least_contrast)
 			throw Refused(fmt::format("{}: the grid goes on beyond {}x{} circles at its {}: count the circles again for `board`", file, board.columns, board.rows, side));
 	};
 	// Contrast() looks there anyway in asymmetric grids.
 	const double half = board.kind == TargetKind::CIRCLES ? 0.5 : 0;
 	const Vec2 across(half, 0), down(0, half);
-	check("left", board.rows, down, [&](int j) { return Vec2(board.CircleColumn(-1, j), j); });
-	check("right", board.rows, down, [&](int j) { return Vec2(board.CircleColumn(board.columns, j), j); });
-	check("top", board.columns, across, [&](int i) { return Vec2(board.CircleColumn(i, -1), -1); });
-	check("bottom", board.columns, across, [&](int i) { return Vec2(board.CircleColumn(i, board.rows), board.rows); });
+	const double least_of_columns = least(down), least_of_rows = least(across);
+	check("left", board.rows, down, least_of_columns, [&](int j) { return Vec2(board.CircleColumn(-1, j), j); });
+	check("right", board.rows, down, least_of_columns, [&](int j) { return Vec2(board.CircleColumn(board.columns, j), j); });
+	check("top", board.columns, across, least_of_rows, [&](int i) { return Vec2(board.CircleColumn(i, -1), -1); });
+	check("bottom", board.columns, across, least_of_rows, [&](int i) { return Vec2(board.CircleColumn(i, board.rows), board.rows); });
 }
 
 bool RightHanded(const Points& p, const Board& b)

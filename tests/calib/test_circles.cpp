@@ -192,20 +192,6 @@ TEST(Circles, WrongGridsAreRefused)
 	EXPECT_NE(Refusal(covered, board).find("no grid of 8x6 circles"), std::string::npos);
 }
 
-/// As FindCircles refuses it; "" where it does not.
-std::string NotFound(const cv::Mat& picture, const Board& board)
-{
-	try
-	{
-		FindCircles(picture, board, {}, "cut");
-	}
-	catch (const Error& e)
-	{
-		return e.what();
-	}
-	return "";
-}
-
 TEST(Circles, WhereThePictureEndsTheGridDoesToo)
 {
 	// The paper ends 0.76 of a spacing below the last row, and what lies below it is as dark as a circle beside it. Wherever the picture ends there, no row goes on, and a row that is whole does.
@@ -224,10 +210,10 @@ TEST(Circles, WhereThePictureEndsTheGridDoesToo)
 		for (double beyond = 0.4; beyond < 1.8; beyond += 0.1)
 		{
 			const int height = std::min(picture.rows, int(std::lround(last + beyond * step)));
-			EXPECT_EQ(NotFound(picture.rowRange(0, height), board), "") << beyond << (asymmetric ? " asymmetric" : "");
+			EXPECT_EQ(Refusal(picture.rowRange(0, height), board), "") << beyond << (asymmetric ? " asymmetric" : "");
 		}
 		for (const double beyond : { 0.4, 0.8 })
-			EXPECT_NE(NotFound(picture.rowRange(0, int(std::lround(last + beyond * step))), fewer), "") << beyond << (asymmetric ? " asymmetric" : "");
+			EXPECT_NE(Refusal(picture.rowRange(0, int(std::lround(last + beyond * step))), fewer), "") << beyond << (asymmetric ? " asymmetric" : "");
 	}
 }
 
