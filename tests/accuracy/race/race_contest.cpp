@@ -175,7 +175,7 @@ void AddPinholes(Contest& contest, const Renderer& renderer, const RaceSettings&
 		std::size_t i = 0;
 		std::vector<int> frames;
 		double start_up = 0;
-		const Cost cost = renderer.Pinholes(settings.pinhole_frames, contest.tilted, start_up, [&](int m, const Picture& mean) {
+		const Cost cost = renderer.Pinholes(settings.pinhole_frames, contest.tilted, PinholesFor::RACE, start_up, [&](int m, const Picture& mean) {
 			if (m < 4)
 				return;
 			if (repeat == 0)
@@ -206,7 +206,7 @@ void CheckTruth(Contest& contest, const Renderer& renderer, const RaceSettings& 
 {
 	Picture half;
 	double start_up = 0;
-	renderer.Pinholes(settings.check_frames, contest.tilted, start_up, [&](int m, const Picture& mean) {
+	renderer.Pinholes(settings.check_frames, contest.tilted, PinholesFor::CHECK, start_up, [&](int m, const Picture& mean) {
 		if (2 * m == settings.check_frames)
 			half = mean;
 		if (m != settings.check_frames)

@@ -62,6 +62,8 @@ Picture Clipped(Picture picture)
 
 int Renderer::Pad(const Setting& setting) const
 {
+	if (setting.opponent == Opponent::PINHOLES)
+		return setting.seed; // one pixel is enough to be at another place in a block
 	return setting.opponent == Opponent::STOCK || !programs.seed ? 3 * setting.seed : 0;
 }
 
@@ -86,7 +88,7 @@ std::vector<std::string> Renderer::Command(const fs::path& program, const Settin
 	if (setting.opponent == Opponent::PINHOLES)
 	{
 		// Half floats, not clipped: the mean of clipped frames would be darker than the clipped mean.
-		command.insert(command.end(), {"+FE", "+Oframe.exr", declare("Camera", 2)});
+		command.insert(command.end(), {"+FE", "+Oframe.exr", declare("Camera", 2), declare("Every_Point", setting.every_point), declare("Pad", pad)});
 		return command;
 	}
 	command.insert(command.end(), {"+FP16", "File_Gamma=1", "+Opicture.ppm", declare("Camera", setting.opponent != Opponent::STOCK),
@@ -178,17 +180,21 @@ double Renderer::StartUp(Opponent opponent, bool tilted) const
 	return least;
 }
 
-Cost Renderer::Pinholes(int frames, bool tilted, double& start_up, const std::function<void(int, const Picture&)>& each) const
+Cost Renderer::Pinholes(int frames, bool tilted, PinholesFor purpose, double& start_up, const std::function<void(int, const Picture&)>& each) const
 {
 	Setting setting;
 	setting.opponent = Opponent::PINHOLES;
 	setting.tilted = tilted;
+	setting.every_point = purpose == PinholesFor::CHECK;
 	// POV-Ray sleeps through most of a short frame, hence more processes than cores.
 	const int batches = std::min(frames, 16), length = (frames + batches - 1) / batches;
 	const auto folder = [&](int batch) { return work / fmt::format("pinholes{}", batch); };
+	const auto pad = [&](int batch) { return purpose == PinholesFor::CHECK ? batch : 0; };
 	const auto run = [&](int batch, int w, int h) {
 		fs::create_directories(folder(batch));
-		std::vector<std::string> command = Command(programs.stock, setting, w, h, {0, 0, w, h});
+		Setting own = setting;
+		own.seed = pad(batch);
+		std::vector<std::string> command = Command(programs.stock, own, w, h, {0, 0, w, h});
 		command.insert(command.end(), {fmt::format("+KFI{}", batch * length + 1), fmt::format("+KFF{}", std::min((batch + 1) * length, frames))});
 		return RunMeasured(command, folder(batch), folder(batch) / "povray.log");
 	};
@@ -211,7 +217,7 @@ Cost Renderer::Pinholes(int frames, bool tilted, double& start_up, const std::fu
 		const int batch = (i - 1) / length;
 		const std::size_t digits = std::to_string(std::min((batch + 1) * length, frames)).size();
 		const fs::path file = folder(batch) / fmt::format("frame{:0{}}.exr", i, digits);
-		const Picture frame = ReadExr(file.string());
+		const Picture frame = Cropped(ReadExr(file.string()), pad(batch), pad(batch), width, height);
 		fs::remove(file);
 		for (std::size_t k = 0; k < sum.rgb.size(); ++k)
 			sum.rgb[k] += frame.rgb[k];

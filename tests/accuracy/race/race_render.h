@@ -22,6 +22,14 @@ struct Rendered
 	Cost cost;
 };
 
+// What averaged pinholes are rendered for: to race, as a user would, or to check a truth. Those ask all points of area lights, whose mean `adaptive`
+// only approximates, and other random numbers in every batch: stock repeats a pixel's in every frame, a noise that halves of the frames would share.
+enum class PinholesFor
+{
+	RACE,
+	CHECK
+};
+
 class Renderer
 {
 public:
@@ -43,11 +51,11 @@ public:
 
 	// Averaged pinholes: `each` receives the mean of the first M frames for every power of two M up to `frames`.
 	// Returns the cost of all; `start_up` receives what as many frames of one pixel cost.
-	Cost Pinholes(int frames, bool tilted, double& start_up, const std::function<void(int, const Picture&)>& each) const;
+	Cost Pinholes(int frames, bool tilted, PinholesFor purpose, double& start_up, const std::function<void(int, const Picture&)>& each) const;
 
 private:
 	// Pixels added on every side: the only way to other random numbers in stock, which derives them from the pixel's
-	// coordinates.
+	// coordinates, or from its place in its block.
 	int Pad(const Setting& setting) const;
 	// Of the rectangle `part` of a picture of w x h pixels.
 	struct Part

@@ -23,6 +23,7 @@ struct Setting
 	double variance = 0, confidence = 0.9;
 	bool bokeh = false; // stock with a round bokeh pigment
 	bool denoise = false, grid = false; // tilt_lens
+	bool every_point = false; // pinholes: area lights do not save points
 	bool tilted = false;
 	int seed = 0; // another set of samples
 };

@@ -10,8 +10,8 @@ global_settings { assumed_gamma 1 }
 #declare Race_Aperture = 0.26;
 #declare Race_Focal_Distance = 4.1;
 #include "race_camera.inc"
-light_source { <-3, 4, -2.5> rgb <0.75, 0.68, 0.55> area_light <1.6, 0, 0>, <0, 0, 1.6>, 3, 3 adaptive 0 jitter }
-light_source { <4, 2.5, -1> rgb <0.22, 0.28, 0.36> area_light <0, 1.5, 0>, <0, 0, 1.5>, 3, 3 adaptive 0 jitter }
+light_source { <-3, 4, -2.5> rgb <0.75, 0.68, 0.55> area_light <1.6, 0, 0>, <0, 0, 1.6>, 3, 3 #if (!Race_Every_Point) adaptive 0 #end jitter }
+light_source { <4, 2.5, -1> rgb <0.22, 0.28, 0.36> area_light <0, 1.5, 0>, <0, 0, 1.5>, 3, 3 #if (!Race_Every_Point) adaptive 0 #end jitter }
 #declare F = finish { ambient 0.07 diffuse 0.75 }
 box { <-4, -0.1, -3>, <4, 0, 1.8> pigment { wood color_map { [0 rgb <0.55, 0.38, 0.22>] [1 rgb <0.4, 0.25, 0.13>] } scale 0.12 turbulence 0.08 rotate y * 90 } finish { F } }
 plane { z, 2.6 pigment { gradient x triangle_wave color_map { [0.45 rgb <0.5, 0.53, 0.5>] [0.55 rgb <0.68, 0.7, 0.64>] } scale 0.5 } finish { F } }
