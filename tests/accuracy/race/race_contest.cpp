@@ -141,11 +141,7 @@ private:
 		return renderer.RenderOrReuse(setting, reuse == Reuse::ALL || (reuse == Reuse::STOCK && setting.opponent == Opponent::STOCK), repeat);
 	}
 
-	// A run can be shorter than the clock's grain or the start-up's scatter.
-	double Net(const Rendered& rendered, const Setting& setting) const
-	{
-		return std::max(rendered.cost.cpu - contest.start_up.at(setting.opponent), 1e-3);
-	}
+	double Net(const Rendered& rendered, const Setting& setting) const { return NetTime(rendered.cost.cpu, contest.start_up.at(setting.opponent)); }
 
 	bool LeftOut(const Setting& setting) const
 	{
@@ -192,10 +188,10 @@ void AddPinholes(Contest& contest, const Renderer& renderer, const RaceSettings&
 		for (RacePoint& point : points)
 		{
 			// Frames cost the same each: the time of the first m is their share.
-			point.times.push_back(std::max(cost.cpu - start_up, 1e-3) * frames[i++] / settings.pinhole_frames);
+			point.times.push_back(NetTime(cost.cpu, start_up) * frames[i++] / settings.pinhole_frames);
 			point.rss = cost.rss;
 		}
-		contest.pinholes_paid = cost.cpu / std::max(cost.cpu - start_up, 1e-3);
+		contest.pinholes_paid = cost.cpu / NetTime(cost.cpu, start_up);
 		contest.start_up[Opponent::PINHOLES] = start_up / settings.pinhole_frames;
 	}
 	contest.points[Opponent::PINHOLES] = points;

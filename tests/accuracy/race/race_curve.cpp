@@ -21,6 +21,11 @@ double RacePoint::Rms() const
 	return std::min({rms_truth, rms_shifted, rms_limit});
 }
 
+double NetTime(double cpu, double start_up)
+{
+	return std::max(cpu - start_up, start_up / 3);
+}
+
 std::vector<CurvePoint> Hull(std::vector<CurvePoint> points)
 {
 	std::sort(points.begin(), points.end(),

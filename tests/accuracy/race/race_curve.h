@@ -21,6 +21,10 @@ struct RacePoint
 	double Rms() const; // the least of the three
 };
 
+// Seconds without those of the start-up. A machine's speed drifts by a third within minutes (COSTS.md), so that what is left is known no better than by
+// a third of the start-up: no time counts as less.
+double NetTime(double cpu, double start_up);
+
 struct CurvePoint
 {
 	double time, error;

@@ -110,7 +110,7 @@ void InFocus(const Bench& bench, std::vector<Row>& rows)
 	std::vector<CurvePoint> ours, theirs;
 	const auto add = [&](std::vector<CurvePoint>& points, const fs::path& program, const Words& options, double start) {
 		const double cpu = std::min(Run(bench, program, scene, width, options).cpu, Run(bench, program, scene, width, options, &picture).cpu);
-		points.push_back({std::max(cpu - start, 1e-3), RmsDifference(picture, truth)});
+		points.push_back({NetTime(cpu, start), RmsDifference(picture, truth)});
 	};
 	for (const int samples : {4, 8, 16, 32, 64, 128, 256})
 		for (const double variance : {0.0, 1e-3, 1e-4, 1e-5})

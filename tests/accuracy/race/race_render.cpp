@@ -198,19 +198,24 @@ Cost Renderer::Pinholes(int frames, bool tilted, PinholesFor purpose, double& st
 		command.insert(command.end(), {fmt::format("+KFI{}", batch * length + 1), fmt::format("+KFF{}", std::min((batch + 1) * length, frames))});
 		return RunMeasured(command, folder(batch), folder(batch) / "povray.log");
 	};
-	// What a frame costs before its first ray is the same for all; a batch tells.
-	start_up = run(0, 1, 1).cpu * frames / length;
-	std::vector<std::future<Cost>> runs;
-	for (int batch = 0; batch < batches; ++batch)
-		runs.push_back(std::async(std::launch::async, run, batch, width, height));
-	Cost cost;
-	for (std::future<Cost>& one : runs)
-	{
-		const Cost part = one.get();
-		cost.cpu += part.cpu;
-		cost.wall = std::max(cost.wall, part.wall);
-		cost.rss = std::max(cost.rss, part.rss);
-	}
+	// All batches at once, of pictures of w x h pixels.
+	const auto run_all = [&](int w, int h) {
+		std::vector<std::future<Cost>> runs;
+		for (int batch = 0; batch < batches; ++batch)
+			runs.push_back(std::async(std::launch::async, run, batch, w, h));
+		Cost cost;
+		for (std::future<Cost>& one : runs)
+		{
+			const Cost part = one.get();
+			cost.cpu += part.cpu;
+			cost.wall = std::max(cost.wall, part.wall);
+			cost.rss = std::max(cost.rss, part.rss);
+		}
+		return cost;
+	};
+	// As crowded as the frames are: start-up is most of their time.
+	start_up = purpose == PinholesFor::RACE ? run_all(1, 1).cpu : 0;
+	const Cost cost = run_all(width, height);
 	Picture sum{width, height, std::vector<double>(3 * std::size_t(width) * std::size_t(height), 0.0), {}};
 	for (int i = 1; i <= frames; ++i)
 	{

@@ -290,7 +290,7 @@ void WritePage(const RaceReport& report, const fs::path& out, const fs::path& wo
 		"<li>CPU time, user and system, one thread, the least of " << report.settings.repeats << " runs"
 		<< (report.settings.short_repeats > report.settings.repeats ? fmt::format(" ({} of those below {} s)", report.settings.short_repeats, report.settings.short_run) : "") << ", opponents by turns there and back"
 		<< fmt::format(" (median spread {:.1f}&thinsp;%)", 100 * MedianSpread(report)) << "; the time of a run that traces one pixel of the same picture is taken off for all, "
-		"for pinholes as often as there are frames.</li>\n"
+		"for pinholes as often as there are frames, and none counts as less than a third of that, by which a machine's speed drifts.</li>\n"
 		"<li>Curves are the lower left of all settings, convex in logarithms. &gt;: the opponent never got there, its last slope, or that of plain averaging "
 		"if steeper, is taken on; &lt;: the same for ours, with the flatter slope; ~: both.</li>\n"
 		"<li>Truths are the mean of independent sets of tilt_lens's fixed samples"

@@ -66,6 +66,14 @@ TEST(RaceRatios, BestIsTheQuickestOfAll)
 	EXPECT_NEAR(At(contest, Opponent::RAW, Side::BEST), 0.375, 1e-9);
 }
 
+// A run that is as short as the start-up's drift, or shorter than the start-up was, is no thousand times faster than another.
+TEST(RaceTimes, NothingIsFasterThanTheStartUpIsKnown)
+{
+	EXPECT_DOUBLE_EQ(NetTime(2.0, 0.06), 1.94);
+	EXPECT_DOUBLE_EQ(NetTime(0.061, 0.06), 0.02);
+	EXPECT_DOUBLE_EQ(NetTime(0.05, 0.06), 0.02);
+}
+
 TEST(RaceRatios, MeansAreOfASide)
 {
 	RaceReport report;
