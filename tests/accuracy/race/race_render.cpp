@@ -85,10 +85,16 @@ std::vector<std::string> Renderer::Command(const fs::path& program, const Settin
 	std::vector<std::string> command = {program.string(), "-D", "+WT1", "-A", "+I" + scene.file.string(),
 		"+L" + scene.file.parent_path().string(), fmt::format("+W{}", w + 2 * pad), fmt::format("+H{}", h + 2 * pad),
 		declare("Tilted", setting.tilted)};
+	const auto render_part = [&] {
+		command.insert(command.end(), {fmt::format("+SC{}", pad + part.left + 1), fmt::format("+EC{}", pad + part.left + part.width),
+			fmt::format("+SR{}", pad + part.top + 1), fmt::format("+ER{}", pad + part.top + part.height)});
+	};
 	if (setting.opponent == Opponent::PINHOLES)
 	{
 		// Half floats, not clipped: the mean of clipped frames would be darker than the clipped mean.
 		command.insert(command.end(), {"+FE", "+Oframe.exr", declare("Camera", 2), declare("Every_Point", setting.every_point), declare("Pad", pad)});
+		if (part.width < w || part.height < h)
+			render_part();
 		return command;
 	}
 	command.insert(command.end(), {"+FP16", "File_Gamma=1", "+Opicture.ppm", declare("Camera", setting.opponent != Opponent::STOCK),
@@ -97,8 +103,7 @@ std::vector<std::string> Renderer::Command(const fs::path& program, const Settin
 	if (setting.grid)
 		command.push_back(declare("Grid", 1));
 	if (pad > 0 || part.width < w || part.height < h)
-		command.insert(command.end(), {fmt::format("+SC{}", pad + part.left + 1), fmt::format("+EC{}", pad + part.left + part.width),
-			fmt::format("+SR{}", pad + part.top + 1), fmt::format("+ER{}", pad + part.top + part.height)});
+		render_part();
 	if (pad > 0)
 		command.push_back(declare("Pad", pad));
 	else if (setting.seed != 0)
@@ -190,32 +195,32 @@ Cost Renderer::Pinholes(int frames, bool tilted, PinholesFor purpose, double& st
 	const int batches = std::min(frames, 16), length = (frames + batches - 1) / batches;
 	const auto folder = [&](int batch) { return work / fmt::format("pinholes{}", batch); };
 	const auto pad = [&](int batch) { return purpose == PinholesFor::CHECK ? batch : 0; };
-	const auto run = [&](int batch, int w, int h) {
+	const auto run = [&](int batch, const Part& part) {
 		fs::create_directories(folder(batch));
 		Setting own = setting;
 		own.seed = pad(batch);
-		std::vector<std::string> command = Command(programs.stock, own, w, h, {0, 0, w, h});
+		std::vector<std::string> command = Command(programs.stock, own, width, height, part);
 		command.insert(command.end(), {fmt::format("+KFI{}", batch * length + 1), fmt::format("+KFF{}", std::min((batch + 1) * length, frames))});
 		return RunMeasured(command, folder(batch), folder(batch) / "povray.log");
 	};
-	// All batches at once, of pictures of w x h pixels.
-	const auto run_all = [&](int w, int h) {
+	// All batches at once.
+	const auto run_all = [&](const Part& part) {
 		std::vector<std::future<Cost>> runs;
 		for (int batch = 0; batch < batches; ++batch)
-			runs.push_back(std::async(std::launch::async, run, batch, w, h));
+			runs.push_back(std::async(std::launch::async, run, batch, part));
 		Cost cost;
 		for (std::future<Cost>& one : runs)
 		{
-			const Cost part = one.get();
-			cost.cpu += part.cpu;
-			cost.wall = std::max(cost.wall, part.wall);
-			cost.rss = std::max(cost.rss, part.rss);
+			const Cost of_batch = one.get();
+			cost.cpu += of_batch.cpu;
+			cost.wall = std::max(cost.wall, of_batch.wall);
+			cost.rss = std::max(cost.rss, of_batch.rss);
 		}
 		return cost;
 	};
-	// As crowded as the frames are: start-up is most of their time.
-	start_up = purpose == PinholesFor::RACE ? run_all(1, 1).cpu : 0;
-	const Cost cost = run_all(width, height);
+	// As crowded as the frames are, and with files as large: they are much of a frame's time.
+	start_up = purpose == PinholesFor::RACE ? run_all({judged.left, judged.top, 1, 1}).cpu : 0;
+	const Cost cost = run_all({0, 0, width, height});
 	Picture sum{width, height, std::vector<double>(3 * std::size_t(width) * std::size_t(height), 0.0), {}};
 	for (int i = 1; i <= frames; ++i)
 	{

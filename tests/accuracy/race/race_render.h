@@ -50,7 +50,7 @@ public:
 	double StartUp(Opponent opponent, bool tilted) const;
 
 	// Averaged pinholes: `each` receives the mean of the first M frames for every power of two M up to `frames`.
-	// Returns the cost of all; `start_up` receives what as many frames of one pixel cost, in a race.
+	// Returns the cost of all; `start_up` receives what as many cost of which one pixel is traced, in a race.
 	Cost Pinholes(int frames, bool tilted, PinholesFor purpose, double& start_up, const std::function<void(int, const Picture&)>& each) const;
 
 private:
