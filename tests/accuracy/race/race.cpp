@@ -111,7 +111,7 @@ try
 	app.add_option("--jobs", jobs, "scenes at a time")->check(CLI::Range(1, 64));
 	CLI::Option *quickly = app.add_flag("--quick", quick, "smaller pictures, fewer settings");
 	CLI::Option *benched = app.add_flag("--bench", bench, "what a change is worth, in minutes: larger pictures, few settings; stock and the truths, by the first --ours, are made once and kept in --work")->excludes(quickly);
-	app.add_option("--size", size, "640x360 or 1920x1080: larger pictures, few settings, no tilted planes; of the largest their middle alone")
+	app.add_option("--size", size, "640x360 or 1920x1080: larger pictures, few settings; tilted planes only where --scene names them, at 640x360; of the largest their middle alone")
 		->check(CLI::IsMember({"640x360", "1920x1080"}))->excludes(quickly)->excludes(benched);
 	app.add_flag("--list", list, "list the contests");
 	app.add_flag("--reuse-stock", reuse_stock, "take stock's pictures and times from an earlier race; for work on tilt_lens");
@@ -138,7 +138,8 @@ try
 		for (bool tilted : {false, true})
 		{
 			const Entry entry{scene, tilted};
-			if (tilted > (scene.tilted && report.settings.pinhole_frames > 0) || (!names.empty() && std::find(names.begin(), names.end(), entry.Name()) == names.end()))
+			const bool named = std::find(names.begin(), names.end(), entry.Name()) != names.end();
+			if (tilted > (scene.tilted && report.settings.pinhole_frames > 0) || (names.empty() ? tilted && !size.empty() : !named))
 				continue;
 			entries.push_back(entry);
 			if (list)
@@ -215,9 +216,9 @@ try
 
 	std::fputs(RatiosInWords(report).c_str(), stdout);
 	for (const Side side : {Side::RAW, Side::BEST})
-		std::printf("time over ours %s at equal RMS error, geometric means: stock %.2f, averaged pinholes %.2f, fixed N %.2f\n%s\n",
-			side == Side::RAW ? "without denoise" : "at its best, denoised where that is quicker", GeometricMean(report, Opponent::STOCK, side),
-			GeometricMean(report, Opponent::PINHOLES, side), GeometricMean(report, Opponent::FIXED, side), WhereWeLose(report, side).c_str());
+		std::printf("time over ours %s at equal RMS error, geometric means: stock %s, averaged pinholes %s, fixed N %s\n%s\n",
+			side == Side::RAW ? "without denoise" : "at its best, denoised where that is quicker", MeanInWords(report, Opponent::STOCK, side).c_str(),
+			MeanInWords(report, Opponent::PINHOLES, side).c_str(), MeanInWords(report, Opponent::FIXED, side).c_str(), WhereWeLose(report, side).c_str());
 	std::printf("%s\n", (out / "report.html").string().c_str());
 	return StandsUp(report) ? 0 : 1;
 }

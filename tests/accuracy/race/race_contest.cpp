@@ -98,7 +98,7 @@ public:
 		const Rendered rendered = Render(setting, 0);
 		RacePoint point;
 		point.setting = setting;
-		point.times = {Net(rendered, setting)};
+		Add(point, rendered);
 		point.rss = rendered.cost.rss;
 		Judge(point, rendered.picture, contest, setting.opponent == Opponent::STOCK ? limit : nullptr);
 		if (IsFixed(setting))
@@ -129,7 +129,7 @@ public:
 	{
 		for (RacePoint& point : contest.points[setting.opponent])
 			if (Label(point.setting) == Label(setting) && (repeat < settings.repeats || point.times.front() < settings.short_run))
-				point.times.push_back(Net(Render(setting, repeat), setting));
+				Add(point, Render(setting, repeat));
 	}
 
 private:
@@ -141,7 +141,7 @@ private:
 		return renderer.RenderOrReuse(setting, reuse == Reuse::ALL || (reuse == Reuse::STOCK && setting.opponent == Opponent::STOCK), repeat);
 	}
 
-	double Net(const Rendered& rendered, const Setting& setting) const { return NetTime(rendered.cost.cpu, contest.start_up.at(setting.opponent)); }
+	void Add(RacePoint& point, const Rendered& rendered) const { point.Add(rendered.cost.cpu, contest.start_up.at(point.setting.opponent)); }
 
 	bool LeftOut(const Setting& setting) const
 	{
@@ -188,7 +188,7 @@ void AddPinholes(Contest& contest, const Renderer& renderer, const RaceSettings&
 		for (RacePoint& point : points)
 		{
 			// Frames cost the same each: the time of the first m is their share.
-			point.times.push_back(NetTime(cost.cpu, start_up) * frames[i++] / settings.pinhole_frames);
+			point.Add(cost.cpu, start_up, double(frames[i++]) / settings.pinhole_frames);
 			point.rss = cost.rss;
 		}
 		contest.pinholes_paid = cost.cpu / NetTime(cost.cpu, start_up);
@@ -232,7 +232,7 @@ std::vector<CurvePoint> HullOf(const Contest& contest, std::initializer_list<Opp
 		const auto found = contest.points.find(opponent);
 		if (found != contest.points.end())
 			for (const RacePoint& point : found->second)
-				points.push_back({point.Time(), error(point)});
+				points.push_back({point.Time(), error(point), point.at_floor});
 	}
 	return Hull(points);
 }
@@ -257,7 +257,7 @@ Ratio RatioOf(const Contest& contest, Opponent opponent, double error, Side side
 	const auto ours = OursAgainst(contest, opponent, side, error_of);
 	const auto rival = opponent == Opponent::RAW ? HullOf(contest, {Opponent::RAW, Opponent::FIXED}, error_of) : BestOf(contest, opponent, error_of);
 	const TimeAt theirs = TimeToReach(rival, error, true), own = TimeToReach(ours, error, false);
-	return {error, theirs.time / own.time, !theirs.reached, !own.reached};
+	return {error, theirs.time / own.time, !theirs.reached, !own.reached, theirs.at_floor, own.at_floor};
 }
 
 }

@@ -57,6 +57,7 @@ struct Ratio
 	double error = 0, value = 0;
 	bool at_least = false; // the opponent did not get there: its time is extrapolated, to its advantage
 	bool at_most = false; // ours did not get there: extrapolated, to its disadvantage
+	bool theirs_at_floor = false, own_at_floor = false; // a time of which is known only that it is not longer (NetTime)
 };
 Ratio RatioAt(const Contest& contest, Opponent opponent, double error, Side side);
 Ratio RelMseRatioAt(const Contest& contest, Opponent opponent, double rel_mse, Side side);

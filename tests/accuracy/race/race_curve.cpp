@@ -6,6 +6,14 @@
 #include <cmath>
 #include <stdexcept>
 
+void RacePoint::Add(double cpu, double start_up, double share)
+{
+	const double net = NetTime(cpu, start_up) * share;
+	if (times.empty() || net < Time())
+		at_floor = cpu - start_up < start_up / 3;
+	times.push_back(net);
+}
+
 double RacePoint::Time() const
 {
 	return *std::min_element(times.begin(), times.end());
@@ -57,15 +65,15 @@ TimeAt TimeToReach(const std::vector<CurvePoint>& hull, double error, bool gener
 	if (hull.empty())
 		throw std::runtime_error("a curve without points");
 	if (error >= hull.front().error)
-		return {hull.front().time, true};
+		return {hull.front().time, true, hull.front().at_floor};
 	for (std::size_t i = 1; i < hull.size(); ++i)
 		if (error >= hull[i].error)
-			return {hull[i - 1].time * std::exp(std::log(error / hull[i - 1].error) / Slope(hull[i - 1], hull[i])), true};
+			return {hull[i - 1].time * std::exp(std::log(error / hull[i - 1].error) / Slope(hull[i - 1], hull[i])), true, hull[i - 1].at_floor || hull[i].at_floor};
 	double slope = -0.5;
 	if (hull.size() >= 2)
 	{
 		const double last = Slope(hull[hull.size() - 2], hull.back());
 		slope = generous ? std::min(last, slope) : std::max(last, slope);
 	}
-	return {hull.back().time * std::exp(std::log(error / hull.back().error) / slope), false};
+	return {hull.back().time * std::exp(std::log(error / hull.back().error) / slope), false, hull.back().at_floor};
 }

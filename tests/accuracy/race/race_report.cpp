@@ -137,7 +137,7 @@ std::string Summary(const RaceReport& report, Opponent rival, const char* title)
 		text += told[i] > 0 ? fmt::format("<th>{:.2f}</th>", std::exp(log_sum[i] / told[i])) : NOT_TOLD;
 	for (std::size_t s = 0; s < sides.size(); ++s)
 	{
-		means += fmt::format("<th class=\"big\">{:.2f}</th>", GeometricMean(report, rival, sides[s]));
+		means += fmt::format("<th class=\"big\">{}</th>", MeanInWords(report, rival, sides[s]));
 		leasts += fmt::format("{}{:.2f} ({})", s > 0 ? ", " : "", least[s], rival == Opponent::RAW ? "denoised" : Heading(sides[s]));
 	}
 	const bool all_told = std::all_of(told.begin(), told.end(), [count](int n) { return n == count; });
@@ -147,6 +147,7 @@ std::string Summary(const RaceReport& report, Opponent rival, const char* title)
 Ratio Paid(const Contest& contest, Ratio ratio)
 {
 	ratio.value *= contest.pinholes_paid;
+	ratio.theirs_at_floor = false; // all of it was measured
 	return ratio;
 }
 
@@ -250,7 +251,7 @@ std::string Section(const Contest& contest, const RaceReport& report, const fs::
 
 std::string MeanRow(const RaceReport& report, Opponent rival, const char* name)
 {
-	const auto cell = [&](Side side) { return fmt::format("<td><b>{:.2f}</b></td>", GeometricMean(report, rival, side)); };
+	const auto cell = [&](Side side) { return fmt::format("<td><b>{}</b></td>", MeanInWords(report, rival, side)); };
 	return fmt::format("<tr><td>{}</td>{}{}</tr>\n", name, rival == Opponent::RAW ? "<td></td>" : cell(Side::RAW), cell(Side::BEST));
 }
 
@@ -292,7 +293,7 @@ void WritePage(const RaceReport& report, const fs::path& out, const fs::path& wo
 		<< fmt::format(" (median spread {:.1f}&thinsp;%)", 100 * MedianSpread(report)) << "; the time of a run that traces one pixel of the same picture is taken off for all, "
 		"for pinholes as often as there are frames, and none counts as less than a third of that, by which a machine's speed drifts.</li>\n"
 		"<li>Curves are the lower left of all settings, convex in logarithms. &gt;: the opponent never got there, its last slope, or that of plain averaging "
-		"if steeper, is taken on; &lt;: the same for ours, with the flatter slope; ~: both.</li>\n"
+		"if steeper, is taken on; &lt;: the same for ours, with the flatter slope; ~: both. ?: one of the two times is not longer than that third of the start-up, and may be much shorter than it counts.</li>\n"
 		"<li>Truths are the mean of independent sets of tilt_lens's fixed samples"
 		<< (report.settings.check_frames > 0 ? ", and are checked against averaged pinholes of stock, which share no code with them.</li>\n"
 			: "; those of the small pictures (160 x 120) are checked against averaged pinholes of stock.</li>\n")

@@ -30,6 +30,9 @@ std::string PlotOf(const Contest& contest, bool rel_mse, const std::filesystem::
 // Geometric mean of ratios against a rival over contests and errors; 0 without any.
 double GeometricMean(const RaceReport& report, Opponent rival, Side side);
 
+// To two digits, with "?" where one of the ratios is of a time at its floor.
+std::string MeanInWords(const RaceReport& report, Opponent rival, Side side);
+
 // Time without a lever of ours over time with it, at equal error: geometric means over the contests that have both.
 struct Lever
 {
@@ -52,5 +55,5 @@ std::string RatiosInWords(const RaceReport& report);
 // Sentences on where ours gains nothing, or least.
 std::string WhereWeLose(const RaceReport& report, Side side);
 
-// ">" for at least, "<" for at most, "~" for both.
+// ">" for at least, "<" for at most, "~" for both; "?" where a time is at its floor.
 const char* Sign(const Ratio& ratio);

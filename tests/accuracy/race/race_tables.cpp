@@ -13,6 +13,8 @@ namespace fs = std::filesystem;
 
 const char* Sign(const Ratio& ratio)
 {
+	if (ratio.theirs_at_floor || ratio.own_at_floor)
+		return "?";
 	return ratio.at_least && !ratio.at_most ? ">" : ratio.at_most && !ratio.at_least ? "<" : ratio.at_least ? "~" : "";
 }
 
@@ -80,6 +82,19 @@ double GeometricMean(const RaceReport& report, Opponent rival, Side side)
 		}
 	}
 	return count > 0 ? std::exp(sum / count) : 0;
+}
+
+std::string MeanInWords(const RaceReport& report, Opponent rival, Side side)
+{
+	bool known = true;
+	for (const Contest& contest : report.contests)
+		if (contest.points.find(rival) != contest.points.end())
+			for (double error : contest.Told(report.settings.errors))
+			{
+				const Ratio ratio = RatioAt(contest, rival, error, side);
+				known = known && !ratio.theirs_at_floor && !ratio.own_at_floor;
+			}
+	return fmt::format("{}{:.2f}", known ? "" : "?", GeometricMean(report, rival, side));
 }
 
 std::string RatiosInWords(const RaceReport& report)

@@ -74,6 +74,34 @@ TEST(RaceTimes, NothingIsFasterThanTheStartUpIsKnown)
 	EXPECT_DOUBLE_EQ(NetTime(0.05, 0.06), 0.02);
 }
 
+// What is read from such a time says so, in a ratio's sign; of repeats it is the least that counts.
+TEST(RaceTimes, ARatioOfATimeThatIsNotKnownIsMarked)
+{
+	RacePoint point;
+	point.Add(0.07, 0.06);
+	EXPECT_TRUE(point.at_floor);
+	point.Add(0.09, 0.06);
+	EXPECT_TRUE(point.at_floor);
+	point.times.clear();
+	point.Add(2.0, 0.06, 0.25);
+	EXPECT_FALSE(point.at_floor);
+	EXPECT_DOUBLE_EQ(point.Time(), 1.94 / 4);
+
+	Contest contest = Made(2, 4, 6);
+	contest.points[Opponent::STOCK][0].at_floor = true; // the coarsest
+	EXPECT_STREQ(Sign(RatioAt(contest, Opponent::STOCK, 0.015, Side::BEST)), "?");
+	EXPECT_STREQ(Sign(RatioAt(contest, Opponent::STOCK, 0.03, Side::RAW)), "?");
+	EXPECT_STREQ(Sign(RatioAt(contest, Opponent::STOCK, 0.004, Side::BEST)), "");
+	EXPECT_STREQ(Sign(RatioAt(contest, Opponent::FIXED, 0.015, Side::BEST)), "");
+
+	RaceReport report;
+	report.contests = {Made(2, 4, 6), contest};
+	report.settings.errors = {0.004};
+	EXPECT_EQ(MeanInWords(report, Opponent::STOCK, Side::BEST), "6.00");
+	report.settings.errors = {0.015};
+	EXPECT_EQ(MeanInWords(report, Opponent::STOCK, Side::BEST), "?6.00");
+}
+
 TEST(RaceRatios, MeansAreOfASide)
 {
 	RaceReport report;
@@ -197,6 +225,7 @@ TEST(RaceSettings, SizesAreThoseOfTheirNames)
 	EXPECT_EQ(full.height, 1080);
 	EXPECT_LT(full.judged_width, full.width);
 	EXPECT_EQ(full.pinhole_frames, 0);
+	EXPECT_GT(half.pinhole_frames, 0);
 	EXPECT_TRUE(full.grid.empty());
 	EXPECT_FALSE(half.grid.empty());
 	EXPECT_FALSE(ReadSettings(RACE_SETTINGS, "full").grid.empty());
