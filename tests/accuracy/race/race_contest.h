@@ -58,6 +58,7 @@ struct Ratio
 	bool at_least = false; // the opponent did not get there: its time is extrapolated, to its advantage
 	bool at_most = false; // ours did not get there: extrapolated, to its disadvantage
 	bool theirs_at_floor = false, own_at_floor = false; // a time of which is known only that it is not longer (NetTime)
+	bool AtFloor() const { return theirs_at_floor || own_at_floor; }
 };
 Ratio RatioAt(const Contest& contest, Opponent opponent, double error, Side side);
 Ratio RelMseRatioAt(const Contest& contest, Opponent opponent, double rel_mse, Side side);

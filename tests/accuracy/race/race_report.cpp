@@ -96,6 +96,7 @@ std::string Summary(const RaceReport& report, Opponent rival, const char* title)
 	std::string rows;
 	std::vector<double> least(sides.size(), 1e9), log_sum(errors.size() * sides.size(), 0.0);
 	std::vector<int> told(log_sum.size(), 0);
+	std::vector<std::string> mark(log_sum.size()); // of a mean that has a ratio so marked
 	int count = 0;
 	for (const Contest& contest : report.contests)
 	{
@@ -104,6 +105,7 @@ std::string Summary(const RaceReport& report, Opponent rival, const char* title)
 		const std::size_t of_it = contest.Told(errors).size();
 		rows += fmt::format("<tr><td><a href=\"#{}\">{}</a></td>", contest.Name(), contest.Title());
 		std::vector<double> sum(sides.size(), 0.0);
+		std::vector<std::string> mark_of_row(sides.size());
 		for (std::size_t i = 0; i < log_sum.size(); ++i)
 		{
 			const std::size_t s = i % sides.size();
@@ -114,13 +116,15 @@ std::string Summary(const RaceReport& report, Opponent rival, const char* title)
 			}
 			const Ratio ratio = RatioAt(contest, rival, errors[i / sides.size()], sides[s]);
 			rows += Cell(ratio);
+			if (ratio.AtFloor())
+				mark[i] = mark_of_row[s] = Sign(ratio);
 			sum[s] += std::log(ratio.value);
 			log_sum[i] += std::log(ratio.value);
 			++told[i];
 			least[s] = std::min(least[s], ratio.value);
 		}
-		for (const double of_side : sum)
-			rows += of_it > 0 ? fmt::format("<td><b>{:.2f}</b></td>", std::exp(of_side / double(of_it))) : NOT_TOLD;
+		for (std::size_t s = 0; s < sides.size(); ++s)
+			rows += of_it > 0 ? fmt::format("<td><b>{}{:.2f}</b></td>", mark_of_row[s], std::exp(sum[s] / double(of_it))) : NOT_TOLD;
 		rows += "</tr>\n";
 		++count;
 	}
@@ -134,7 +138,7 @@ std::string Summary(const RaceReport& report, Opponent rival, const char* title)
 		text += fmt::format("<th>{}</th>", rival == Opponent::RAW ? "denoised" : Heading(sides[i % sides.size()]));
 	text += "</tr>\n" + rows + "<tr><th>geometric mean</th>";
 	for (std::size_t i = 0; i < log_sum.size(); ++i)
-		text += told[i] > 0 ? fmt::format("<th>{:.2f}</th>", std::exp(log_sum[i] / told[i])) : NOT_TOLD;
+		text += told[i] > 0 ? fmt::format("<th>{}{:.2f}</th>", mark[i], std::exp(log_sum[i] / told[i])) : NOT_TOLD;
 	for (std::size_t s = 0; s < sides.size(); ++s)
 	{
 		means += fmt::format("<th class=\"big\">{}</th>", MeanInWords(report, rival, sides[s]));
@@ -278,13 +282,13 @@ void WritePage(const RaceReport& report, const fs::path& out, const fs::path& wo
 		<< MeanRow(report, Opponent::PINHOLES, "averaged pinholes (tilted planes)") << MeanRow(report, Opponent::FIXED, "our own fixed N")
 		<< MeanRow(report, Opponent::RAW, "our own without denoise, over denoised") << "</table>\n"
 		"<p>Raw: tilt_lens without <code>denoise</code>, adaptive or fixed, which like stock and pinholes shows what it traced. Best: denoised where that is quicker. "
-		"No opponent is denoised.</p>\n<p>Raw: " << WhereWeLose(report, Side::RAW) << "</p>\n<p>Best: " << WhereWeLose(report, Side::BEST) << "</p>\n";
+		"No opponent is denoised. What the signs before ratios say: <a href=\"#measured\">how it is measured</a>.</p>\n<p>Raw: " << WhereWeLose(report, Side::RAW) << "</p>\n<p>Best: " << WhereWeLose(report, Side::BEST) << "</p>\n";
 	file << Summary(report, Opponent::STOCK, "Stock focal blur, best of all its settings, zero tilt")
 		<< Summary(report, Opponent::PINHOLES, "Averaged pinhole renders from stock, tilted planes")
 		<< Summary(report, Opponent::RAW, "tilt_lens without denoise, adaptive and fixed, over tilt_lens with it")
 		<< Summary(report, Opponent::FIXED, "tilt_lens with a fixed number of samples, over all that adapts");
 	file << LeversSection(report) << SizesSection(report, out);
-	file << "<h3>How it is measured</h3>\n<ul>\n"
+	file << "<h3 id=\"measured\">How it is measured</h3>\n<ul>\n"
 		"<li>RMS error over pixels and channels, linear light, 16 bits, clipped at 1. relMSE is mean((x &minus; t)&sup2; / (t&sup2; + 0.01)).</li>\n"
 		"<li>Each stock picture is judged by the smallest of three errors: against the truth; against the truth moved by the part of a pixel that suits it best; "
 		"against stock's own limit, less the limit's own noise. Its sampling errors are thus not held against it.</li>\n"

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 const char* Sign(const Ratio& ratio)
 {
-	if (ratio.theirs_at_floor || ratio.own_at_floor)
+	if (ratio.AtFloor())
 		return "?";
 	return ratio.at_least && !ratio.at_most ? ">" : ratio.at_most && !ratio.at_least ? "<" : ratio.at_least ? "~" : "";
 }
@@ -90,10 +90,7 @@ std::string MeanInWords(const RaceReport& report, Opponent rival, Side side)
 	for (const Contest& contest : report.contests)
 		if (contest.points.find(rival) != contest.points.end())
 			for (double error : contest.Told(report.settings.errors))
-			{
-				const Ratio ratio = RatioAt(contest, rival, error, side);
-				known = known && !ratio.theirs_at_floor && !ratio.own_at_floor;
-			}
+				known = known && !RatioAt(contest, rival, error, side).AtFloor();
 	return fmt::format("{}{:.2f}", known ? "" : "?", GeometricMean(report, rival, side));
 }
 
