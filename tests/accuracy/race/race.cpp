@@ -217,8 +217,8 @@ try
 	std::fputs(RatiosInWords(report).c_str(), stdout);
 	for (const Side side : {Side::RAW, Side::BEST})
 		std::printf("time over ours %s at equal RMS error, geometric means: stock %s, averaged pinholes %s, fixed N %s\n%s\n",
-			side == Side::RAW ? "without denoise" : "at its best, denoised where that is quicker", MeanInWords(report, Opponent::STOCK, side).c_str(),
-			MeanInWords(report, Opponent::PINHOLES, side).c_str(), MeanInWords(report, Opponent::FIXED, side).c_str(), WhereWeLose(report, side).c_str());
+			side == Side::RAW ? "without denoise" : "at its best, denoised where that is quicker", MeanAgainst(report, Opponent::STOCK, side).InWords().c_str(),
+			MeanAgainst(report, Opponent::PINHOLES, side).InWords().c_str(), MeanAgainst(report, Opponent::FIXED, side).InWords().c_str(), WhereWeLose(report, side).c_str());
 	std::printf("%s\n", (out / "report.html").string().c_str());
 	return StandsUp(report) ? 0 : 1;
 }

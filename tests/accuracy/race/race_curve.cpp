@@ -8,10 +8,10 @@
 
 void RacePoint::Add(double cpu, double start_up, double share)
 {
-	const double net = NetTime(cpu, start_up) * share;
-	if (times.empty() || net < Time())
-		at_floor = cpu - start_up < start_up / 3;
-	times.push_back(net);
+	const double net = NetTime(cpu, start_up);
+	if (times.empty() || net * share < Time())
+		at_floor = net > cpu - start_up;
+	times.push_back(net * share);
 }
 
 double RacePoint::Time() const

@@ -94,19 +94,16 @@ std::string Summary(const RaceReport& report, Opponent rival, const char* title)
 	const std::vector<Side> sides = SidesAgainst(rival);
 	const std::vector<double>& errors = report.settings.errors;
 	std::string rows;
-	std::vector<double> least(sides.size(), 1e9), log_sum(errors.size() * sides.size(), 0.0);
-	std::vector<int> told(log_sum.size(), 0);
-	std::vector<std::string> mark(log_sum.size()); // of a mean that has a ratio so marked
+	std::vector<double> least(sides.size(), 1e9);
+	std::vector<MeanRatio> columns(errors.size() * sides.size());
 	int count = 0;
 	for (const Contest& contest : report.contests)
 	{
 		if (contest.points.find(rival) == contest.points.end())
 			continue;
-		const std::size_t of_it = contest.Told(errors).size();
 		rows += fmt::format("<tr><td><a href=\"#{}\">{}</a></td>", contest.Name(), contest.Title());
-		std::vector<double> sum(sides.size(), 0.0);
-		std::vector<std::string> mark_of_row(sides.size());
-		for (std::size_t i = 0; i < log_sum.size(); ++i)
+		std::vector<MeanRatio> row(sides.size());
+		for (std::size_t i = 0; i < columns.size(); ++i)
 		{
 			const std::size_t s = i % sides.size();
 			if (!contest.Tells(errors[i / sides.size()]))
@@ -116,15 +113,12 @@ std::string Summary(const RaceReport& report, Opponent rival, const char* title)
 			}
 			const Ratio ratio = RatioAt(contest, rival, errors[i / sides.size()], sides[s]);
 			rows += Cell(ratio);
-			if (ratio.AtFloor())
-				mark[i] = mark_of_row[s] = Sign(ratio);
-			sum[s] += std::log(ratio.value);
-			log_sum[i] += std::log(ratio.value);
-			++told[i];
+			row[s].Add(ratio);
+			columns[i].Add(ratio);
 			least[s] = std::min(least[s], ratio.value);
 		}
-		for (std::size_t s = 0; s < sides.size(); ++s)
-			rows += of_it > 0 ? fmt::format("<td><b>{}{:.2f}</b></td>", mark_of_row[s], std::exp(sum[s] / double(of_it))) : NOT_TOLD;
+		for (const MeanRatio& mean : row)
+			rows += mean.Count() > 0 ? fmt::format("<td><b>{}</b></td>", mean.InWords()) : NOT_TOLD;
 		rows += "</tr>\n";
 		++count;
 	}
@@ -134,17 +128,17 @@ std::string Summary(const RaceReport& report, Opponent rival, const char* title)
 	for (double error : errors)
 		text += fmt::format("<th colspan=\"{}\">at {:g}</th>", sides.size(), error);
 	text += fmt::format("<th colspan=\"{}\">mean</th></tr>\n<tr><th></th>", sides.size());
-	for (std::size_t i = 0; i < log_sum.size() + sides.size(); ++i)
+	for (std::size_t i = 0; i < columns.size() + sides.size(); ++i)
 		text += fmt::format("<th>{}</th>", rival == Opponent::RAW ? "denoised" : Heading(sides[i % sides.size()]));
 	text += "</tr>\n" + rows + "<tr><th>geometric mean</th>";
-	for (std::size_t i = 0; i < log_sum.size(); ++i)
-		text += told[i] > 0 ? fmt::format("<th>{}{:.2f}</th>", mark[i], std::exp(log_sum[i] / told[i])) : NOT_TOLD;
+	for (const MeanRatio& mean : columns)
+		text += mean.Count() > 0 ? fmt::format("<th>{}</th>", mean.InWords()) : NOT_TOLD;
 	for (std::size_t s = 0; s < sides.size(); ++s)
 	{
-		means += fmt::format("<th class=\"big\">{}</th>", MeanInWords(report, rival, sides[s]));
+		means += fmt::format("<th class=\"big\">{}</th>", MeanAgainst(report, rival, sides[s]).InWords());
 		leasts += fmt::format("{}{:.2f} ({})", s > 0 ? ", " : "", least[s], rival == Opponent::RAW ? "denoised" : Heading(sides[s]));
 	}
-	const bool all_told = std::all_of(told.begin(), told.end(), [count](int n) { return n == count; });
+	const bool all_told = std::all_of(columns.begin(), columns.end(), [count](const MeanRatio& mean) { return mean.Count() == count; });
 	return text + means + "</tr></table>\n<p>Least: " + leasts + (all_told ? "" : ". –: less than twice the error that the truth itself may have") + ".</p>\n";
 }
 
@@ -255,7 +249,7 @@ std::string Section(const Contest& contest, const RaceReport& report, const fs::
 
 std::string MeanRow(const RaceReport& report, Opponent rival, const char* name)
 {
-	const auto cell = [&](Side side) { return fmt::format("<td><b>{}</b></td>", MeanInWords(report, rival, side)); };
+	const auto cell = [&](Side side) { return fmt::format("<td><b>{}</b></td>", MeanAgainst(report, rival, side).InWords()); };
 	return fmt::format("<tr><td>{}</td>{}{}</tr>\n", name, rival == Opponent::RAW ? "<td></td>" : cell(Side::RAW), cell(Side::BEST));
 }
 

@@ -27,11 +27,24 @@ void WritePage(const RaceReport& report, const std::filesystem::path& out, const
 // The SVG of a contest's curves: RMS error, or the root of relMSE.
 std::string PlotOf(const Contest& contest, bool rel_mse, const std::filesystem::path& work);
 
-// Geometric mean of ratios against a rival over contests and errors; 0 without any.
-double GeometricMean(const RaceReport& report, Opponent rival, Side side);
+// Geometric mean of ratios.
+class MeanRatio
+{
+public:
+	void Add(const Ratio& ratio);
+	int Count() const { return count; }
+	double Value() const; // 0 without any
+	std::string InWords() const; // two digits, with "?" where one of the ratios is of a time at its floor
 
-// To two digits, with "?" where one of the ratios is of a time at its floor.
-std::string MeanInWords(const RaceReport& report, Opponent rival, Side side);
+private:
+	double log_sum = 0;
+	int count = 0;
+	bool at_floor = false;
+};
+
+// Of the ratios against a rival over contests and errors.
+MeanRatio MeanAgainst(const RaceReport& report, Opponent rival, Side side);
+double GeometricMean(const RaceReport& report, Opponent rival, Side side);
 
 // Time without a lever of ours over time with it, at equal error: geometric means over the contests that have both.
 struct Lever

@@ -67,31 +67,36 @@ void WriteTables(const RaceReport& report, const fs::path& out)
 	}
 }
 
-double GeometricMean(const RaceReport& report, Opponent rival, Side side)
+void MeanRatio::Add(const Ratio& ratio)
 {
-	double sum = 0;
-	int count = 0;
-	for (const Contest& contest : report.contests)
-	{
-		if (contest.points.find(rival) == contest.points.end())
-			continue;
-		for (double error : contest.Told(report.settings.errors))
-		{
-			sum += std::log(RatioAt(contest, rival, error, side).value);
-			++count;
-		}
-	}
-	return count > 0 ? std::exp(sum / count) : 0;
+	log_sum += std::log(ratio.value);
+	++count;
+	at_floor = at_floor || ratio.AtFloor();
 }
 
-std::string MeanInWords(const RaceReport& report, Opponent rival, Side side)
+double MeanRatio::Value() const
 {
-	bool known = true;
+	return count > 0 ? std::exp(log_sum / count) : 0;
+}
+
+std::string MeanRatio::InWords() const
+{
+	return fmt::format("{}{:.2f}", at_floor ? "?" : "", Value());
+}
+
+MeanRatio MeanAgainst(const RaceReport& report, Opponent rival, Side side)
+{
+	MeanRatio mean;
 	for (const Contest& contest : report.contests)
 		if (contest.points.find(rival) != contest.points.end())
 			for (double error : contest.Told(report.settings.errors))
-				known = known && !RatioAt(contest, rival, error, side).AtFloor();
-	return fmt::format("{}{:.2f}", known ? "" : "?", GeometricMean(report, rival, side));
+				mean.Add(RatioAt(contest, rival, error, side));
+	return mean;
+}
+
+double GeometricMean(const RaceReport& report, Opponent rival, Side side)
+{
+	return MeanAgainst(report, rival, side).Value();
 }
 
 std::string RatiosInWords(const RaceReport& report)

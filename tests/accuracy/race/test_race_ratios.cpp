@@ -97,9 +97,9 @@ TEST(RaceTimes, ARatioOfATimeThatIsNotKnownIsMarked)
 	RaceReport report;
 	report.contests = {Made(2, 4, 6), contest};
 	report.settings.errors = {0.004};
-	EXPECT_EQ(MeanInWords(report, Opponent::STOCK, Side::BEST), "6.00");
+	EXPECT_EQ(MeanAgainst(report, Opponent::STOCK, Side::BEST).InWords(), "6.00");
 	report.settings.errors = {0.015};
-	EXPECT_EQ(MeanInWords(report, Opponent::STOCK, Side::BEST), "?6.00");
+	EXPECT_EQ(MeanAgainst(report, Opponent::STOCK, Side::BEST).InWords(), "?6.00");
 }
 
 TEST(RaceRatios, MeansAreOfASide)
